@@ -69,6 +69,28 @@ def test_without_a_support_what_it_carries_falls(tmp_path):
     assert vary(shelf(), tmp_path / "kept", 500).pos[-1, 1, 2] > 1.1
 
 
+SHAPES = {
+    "box": (mujoco.mjtGeom.mjGEOM_BOX, (0.1, 0.1, 0.003)),
+    "cylinder": (mujoco.mjtGeom.mjGEOM_CYLINDER, (0.1, 0.003, 0)),
+    "ellipsoid": (mujoco.mjtGeom.mjGEOM_ELLIPSOID, (0.1, 0.1, 0.003)),
+    "plane": (mujoco.mjtGeom.mjGEOM_PLANE, (1, 1, 0.1)),
+}
+
+
+@pytest.mark.parametrize("lies", ["box", "cylinder", "ellipsoid"])
+@pytest.mark.parametrize("carries", SHAPES)
+def test_without_a_support_that_is_paired_nothing_touches_it_whatever_its_shape(carries, lies, tmp_path):
+    spec = empty()
+    for name, shape, height in (("plate", SHAPES[carries], 0.003), ("kettle", SHAPES[lies], 0.0095)):
+        body = spec.worldbody.add_body(name=name, pos=(0, 0, height))
+        body.add_geom(name=name, type=shape[0], size=shape[1], contype=0, conaffinity=0)
+    body.add_freejoint()
+    spec.add_pair(geomname1="plate", geomname2="kettle")
+    assert vary(spec, tmp_path / "a", 200).ncon.any()
+    alone = vary(spec, tmp_path / "b", 200, without=["plate"])
+    assert not alone.ncon.any() and alone.pos[-1, 1, 2] < -0.1
+
+
 def test_a_weaker_body_is_lighter_and_slower(tmp_path):
     times = [hit_time(vary(bowling(), tmp_path / str(f), 1500, weaken=[f"ball={f}"])) for f in (1.0, 0.8, 0.5)]
     assert times[0] < times[1] - 0.02 < times[2] - 0.1

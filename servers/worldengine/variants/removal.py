@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 IMMOVABLE = 1e10
 """The inertia that is added to a joint that must not move, kg or kg m^2."""
 APART_M = 1e9
-"""As a negative margin, m, it lets no distance make a contact."""
+"""As a negative margin, m, it lets no distance to a plane make a contact."""
 
 
 def taken_away(model: "mujoco.MjModel", body: int) -> bool:
@@ -186,7 +186,11 @@ class Removal:
         model = self.model
         model.geom_contype[geoms] = model.geom_conaffinity[geoms] = 0
         named = np.isin(model.pair_geom1, geoms) | np.isin(model.pair_geom2, geoms)
-        model.pair_margin[named], model.pair_gap[named] = -APART_M, 0.0
+        round_ = model.geom_rbound[np.stack([model.pair_geom1, model.pair_geom2])]
+        # The engine compares the square of both radii and the margin with that of a distance: where they sum up to nought nothing is
+        # near. Far below it everything is, and the algorithm for convex shapes then ignores the margin.
+        apart = np.where((round_ > 0).all(axis=0), -round_.sum(axis=0), -APART_M)
+        model.pair_margin[named], model.pair_gap[named] = apart[named], 0.0
 
     # -- joints, actuators, tendons, equalities ----------------------------------------------------------------------
 

@@ -74,14 +74,10 @@ class _Writer:
         self.laws = Laws(plan, self.needs, alone)
         self.parameters = plan.simulation_parameters
         solvers = [row.solver for row in self.parameters.interventions if row.solver]
-        read = {
-            name
-            for solver in solvers
-            for own, name in solver.constants.items()
-            if own != "level" or not solver.container
-        }
-        self.own = {name: value for name, value in self.parameters.constants.items() if name not in read}
-        """Constants of the plan, less those that a solver beside the engine reads."""
+        self.read = {name for solver in solvers for name in solver.constants.values()}
+        """Constants of the plan that a solver beside the engine reads, by itself."""
+        self.own = dict(self.parameters.constants)
+        """Constants of the plan that the program has: less those of a solver that nothing else in it names, too."""
 
     def program(self) -> str:
         """The whole file."""
@@ -91,6 +87,7 @@ class _Writer:
             self.pairs(),
             driving.tendons(plan, scene, needs),
             driving.actuators(plan, needs),
+            driving.ties(plan, needs),
             self.light(),
             self.cameras(),
             self.motion(),
@@ -100,6 +97,8 @@ class _Writer:
         surfaces += robots_text.made(plan, needs)
         control = driving.control(plan, needs)
         entry = self.entry(bool(control))
+        named = {*re.findall(r"\w+", f"{surfaces}\n{body}\n{control}\n{entry}")}
+        self.own = {k: v for k, v in self.own.items() if k not in self.read or constant_name(k) in named}
         imports = "import math\n\n" if "math." in body else ""
         return "\n".join(
             part

@@ -1,5 +1,7 @@
 """Write what fastens and drives: ropes, springs and rods between bodies, motors and servos on joints, and their control."""
 
+import re
+
 from ..model.plan.committed import Intervention, Plan, SimulationParameters
 from ..model.plan.drives import Actuator
 from ..model.plan.fastening import point
@@ -9,6 +11,9 @@ from . import robots_text
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
 from .vehicles_text import commanded
+
+LETS_GO = re.compile(r"\b(break|releas|let|snap|cut|open|tear|switch|fail)", re.IGNORECASE)
+"""What is said of a constraint that does not hold throughout."""
 
 
 def tendons(plan: Plan, scene: Scene, needs: Needs) -> str:
@@ -40,11 +45,37 @@ def actuators(plan: Plan, needs: Needs) -> str:
     return "\n".join(lines)
 
 
+def ties(plan: Plan, needs: Needs) -> str:
+    """Mark where constraints that hold throughout are built, such as a thread: `control` would have nothing to do for them."""
+    lines = []
+    for row in filter(_ties, plan.simulation_parameters.interventions):
+        known = {*needs.joint_kinds, *(joint.name for joint in plan.topology.joints)}
+        said = [
+            word for word in dict.fromkeys(re.findall(r"[\w-]+", f"{' '.join(row.bodies)} {row.law}")) if word in known
+        ]
+        called = next((name for name in row.bodies if name not in known), row.bodies[0])
+        kind, ends = "mjEQ_JOINT", said[:2]
+        if len(ends) < 2:
+            kind, ends = "mjEQ_...", ["...", "..."]
+        made = f"spec.add_equality(name={called!r}, type=mujoco.mjtEq.{kind}, name1={ends[0]!r}, name2={ends[1]!r})"
+        what = f"it holds throughout, so it is an equality of the model, here in build(), not in control(): `{made}`, and its data"
+        needs.leave(f"declared constraint on {', '.join(row.bodies)}: {row.law}", what)
+        lines.append(
+            comment(f"AUTHOR: constraint on {', '.join(row.bodies)}: {row.law} (source: {row.source}); {what}.")
+        )
+    return "\n".join(lines)
+
+
+def _ties(row: Intervention) -> bool:
+    return row.kind == "constraint" and always(row.trigger) and not LETS_GO.search(row.law)
+
+
 def control(plan: Plan, needs: Needs) -> str:
     """Write the `control` function: constant controls of the plan's actuators, and marks for what else it declares."""
     parameters = plan.simulation_parameters
     # Neither a solver beside the engine nor the wind of the medium, which `build` has, needs anything from here.
-    interventions = [row for row in parameters.interventions if row.solver is None and not _said_again(row, parameters)]
+    acting = [row for row in parameters.interventions if row.solver is None and not _ties(row)]
+    interventions = [row for row in acting if not _said_again(row, parameters)]
     driven = {row.name: row for row in plan.topology.actuators if row.control is not None}
     drivers, blown = commanded(plan) | robots_text.commanded(plan), robots_text.blown(plan)
     if not interventions and not driven:

@@ -15,7 +15,7 @@ _TABLE = """
     rope     ; string, rope, cord, tether*, chain, yo-yo, yoyo, kite, crane, hang, hung, pulley, hoist ; keeps_length ; tendons-and-ropes
     swinging ; swing, pendul*, sway, cradle, wrecking, metronome ; has_period, rings_down, oscillates, keeps_amplitude ; joints-and-actuators
     turning  ; turn, rotat*, wheel, mill, windmill, door, hinge, pivot*, see-saw, seesaw, lever, crank, axle, propell*, clock, carousel, spin, orbit, circl* ; orbits, circles, turns, reaches_spin, spins_at_constant_rate, precesses ; joints-and-actuators
-    spring   ; spring, catapult*, slingshot, bow, arrow, jack-in-the-box, trampolin*, compress*, elastic*, bungee ; spring_becomes_kinetic ; tendons-and-ropes
+    spring   ; spring, catapult*, slingshot, bow, arrow, jack-in-the-box, trampolin*, elastic*, bungee ; spring_becomes_kinetic ; tendons-and-ropes
     motor    ; motor*, drive, driven, servo, engine, machine, conveyor, pump ; ; joints-and-actuators
     rolling  ; roll, marble, slope, ramp, hill, downhill ; rolls_without_slipping ; contacts-and-friction
     sliding  ; slid*, push, drag, skid, sled, sledge, puck, curling ; slides, slides_and_stops, sticks ; contacts-and-friction
@@ -30,6 +30,7 @@ _TABLE = """
     flowing  ; pour*, flow, flows, flowing, flowed, paint* blend*, paint* mix*, spill*, splash*, drip*, ooz*, honey, syrup, caramel, batter, molten, sand, snow, snowfall, snowflake* ; pours_into, covers, blends ; media
     inflated ; balloon, inflat*, deflat*, airbag, bottle deform*, bottle cool*, bottle collaps*, bottle crush*, bottle shrink*, vacuum ; has_volume ; media
     soft     ; cloth, flag, curtain, towel, jelly, rubber, sponge, soft*, bend, bent, hose, cable, branch, bough, twig, reed, tree ; sags, bends, stretches, keeps_new_shape, returns_to_shape ; flex-cloth-soft-rods
+    pressed  ; squeez*, compress*, squash*, sponge, foam, cushion, pillow, mattress, dough, knead*, dent, indent*, mould*, mold*, putty, plasticine, lump clay, clay squeez*, clay press*, clay flatten* ; ; media
     breaking ; break, broke, broken, snap, shatter*, crack, tear, torn, burst, fractur*, collaps* ; breaks, breaks_at, comes_apart ; breakable-things
     figure   ; person, man, woman, child, dancer, gymnast, doll, puppet, walk, acrobat ; ; articulated-figures
     vehicle  ; car, truck, cart, bicycl*, bike, train, wagon, vehicl*, tractor, skateboard* ; ; vehicles
@@ -40,7 +41,10 @@ _TABLE = """
     model    ; urdf, mjcf ; ; importing-models
 """
 
-
+UNLESS = {"pressed": "spring"}
+"""What is pressed is soft matter by itself, and no mechanism of its own where the sentence names what else gives way."""
+ELASTIC = re.compile(r"neo-hookean|elastic|rubber|foam", re.IGNORECASE)
+"""What the author's own law of a soft solid speaks of."""
 WIND = {"wind", "opt.wind"}
 """What an intervention that is a wind speaks of."""
 LIQUID = 100.0
@@ -76,11 +80,12 @@ def of_sentence(sentence: str) -> tuple[str, ...]:
     ('turning', 'air')
     """
     spoken = re.findall(r"[a-z][a-z-]*", sentence.lower())
-    return tuple(
+    found = [
         row.name
         for row in table()
         if any(all(any(_means(word, part) for word in spoken) for part in phrase) for phrase in row.said)
-    )
+    ]
+    return tuple(name for name in found if UNLESS.get(name) not in found)
 
 
 def _means(word: str, part: str) -> bool:
@@ -124,6 +129,11 @@ def _built(plan: Plan) -> Iterator[str]:
         yield "water"  # its wind is a current
     elif parameters.medium is not None or any(WIND & {*i.bodies, *i.law.split()} for i in parameters.interventions):
         yield "air"
+    laws = [row.law for row in parameters.interventions if row.solver and row.solver.file]
+    if any(ELASTIC.search(law) for law in laws) or any(
+        row.soft and row.soft.kind == "jelly" for row in plan.scene_objects
+    ):
+        yield "pressed"
     if any(row.breaks for row in plan.scene_objects):
         yield "breaking"
     if plan.layout_density:

@@ -9,6 +9,7 @@ from typing import Any
 from worldkit.files import write_atomic
 from worldkit.film_files import ARRAYS, DESCRIPTION
 
+from ..model.belief import JUDGE_NOW
 from ..model.errors import GateError, NotFoundError
 from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey
@@ -119,7 +120,7 @@ def shots(run: Run, key: EvidenceKey) -> Illustrated:
         until = told["film_s"] + told["seconds"]
         times = f"{told['film_s']:.2f} to {until:.2f} s, recorded {told['from_s']:.2f} to {told['to_s']:.2f} s"
         lines.append(f"shot {number}: {times}, speed {told['speed']:g}; luma {luma}; {'; '.join(sizes)}")
-    lines += _of_film(said)
+    lines += [*_of_film(said), JUDGE_NOW]
     sheets = sorted((name for name in found if name.startswith("shots-")), key=lambda n: int(n[6:-4]))
     share = BUDGET_BYTES // max(len(sheets), 1)
     pictures = tuple(

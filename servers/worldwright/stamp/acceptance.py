@@ -31,6 +31,7 @@ from . import (
     private,
     private_copy,
     processor,
+    proof_told,
     redrawn,
     repeats,
     sampled,
@@ -101,7 +102,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             kept=kept,
         )
         if proved is None:
-            return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
+            return _proving(state, work, "proof")
         if proved.world:
             _factual(state, stripped, proved.world.parent)
         repeats.same(state, stripped, proved)
@@ -114,7 +115,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         left = max(1.0, deadline - time.monotonic())
         again = None if driven is None else trials_again.before_signing(state, proved, work, left, progress)
         if again is None:
-            return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
+            return _proving(state, work, "again" if driven is None else "audit")
         made = work / "accepted"  # what is signed lies where nobody else writes, until it is signed
         try:
             shutil.rmtree(made, ignore_errors=True)
@@ -129,6 +130,14 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         state.run.blocked.unlink(missing_ok=True)
         shutil.rmtree(work, ignore_errors=True)
     return _answer(state, statement, stamp_sha256)
+
+
+def _proving(state: State, work: Path, part: proof_told.Part) -> Accepted:
+    """The answer while it is proved; it goes on by itself."""
+    told = proof_told.line(state, work, part)
+    return Accepted(
+        state="proving", run=state.run.name, under_way=told, next_move=f"worldwright stamp accept {state.place}"
+    )
 
 
 def _signed_anew(state: State, signer: "Ed25519PrivateKey") -> None:

@@ -29,6 +29,8 @@ class Accepted(Frozen):
     """When the proof run began, ISO 8601, UTC; of older stamps it is not known."""
     proof_key: str = ""
     """The evidence key of the proof run."""
+    under_way: str = ""
+    """While it is proved: how far that is, about how long it still takes, and what is at work beside it."""
     next_move: str = ""
 
     @property
@@ -39,7 +41,8 @@ class Accepted(Frozen):
     def text(self) -> str:
         """The answer as a person reads it."""
         if not self.ok:
-            return f"{self.run}: the proof run goes on\n  next: {self.next_move}"
+            far = f": {self.under_way}" if self.under_way else ""
+            return f"{self.run}: the proof run goes on{far}\n  next: {self.next_move}"
         stripped = f", {self.stripped_lines} lines of instrumentation taken out" if self.stripped_lines else ""
         unseen = ", ".join(map(str, self.not_looked_at))
         blind = f"  NOT LOOKED AT      objective {unseen}: claimed for the eye, counted only\n" if unseen else ""

@@ -11,6 +11,7 @@ from typing import Literal
 
 from ..model.errors import CallOverError, WorldwrightError
 from ..model.evidence.audits import CausesReport, InterventionReport, RefineReport, RobustReport
+from ..model.evidence.build_steps import StepName
 from ..model.evidence.run import Run
 from .kept import Kept
 from .refusal import Refusal
@@ -18,6 +19,8 @@ from .state import State
 
 LONG_S = 60.0
 """What took longer is not repeated seven times unasked, s."""
+BEFORE_ROBUST: tuple[StepName, ...] = ("causes", "stills", "video")
+"""What comes before the worlds a little otherwise, for which nobody waits."""
 Standing = Literal["absent", "damaged", "stale", "fails", "holds"]
 Audit = InterventionReport | CausesReport | RefineReport
 
@@ -85,10 +88,11 @@ def unshown(state: State) -> Iterator[Refusal]:
         )
 
 
-def robust_beside(run: Run) -> str:
+def robust_beside(run: Run, *, proving: bool = False) -> str:
     """Have the claims measured in worlds a little otherwise, which nothing waits for; says in a line how it stands.
 
-    Of a long physics they are not asked for by themselves: they would take the processor from its proof.
+    Of a long physics they are not asked for by themselves, and while it is proved ahead (`proving`) they wait for that, whose
+    process begins them at its end: both would share a processor for which acceptance waits.
     """
     from ..scan.tools import begin_robust
 
@@ -96,6 +100,8 @@ def robust_beside(run: Run) -> str:
     physics = state.passes["physics"].value
     if physics is not None and physics.wall_s > LONG_S and not (state.folder / "robust.json").is_file():
         return f"seven more passes of about {physics.wall_s:.0f} s; `worldwright scan scan {state.place} --robust` makes them"
+    if proving and not (state.folder / "robust.json").is_file():
+        return "the worlds a little otherwise are simulated once the proof run has ended; the report will tell"
     with suppress(WorldwrightError):  # a remark, which blocks nothing
         return begin_robust(run).removeprefix("robust: ")
     return ""

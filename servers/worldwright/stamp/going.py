@@ -104,9 +104,10 @@ class Going:
         if "expect" in self.held and not self.wrong and (ahead := proof_ahead.begin(self.run)):
             self.say("proof", "done", ahead)
             self.proof = ahead
-        if {"causes", "stills", "video"} <= self.held.keys() and (robust := audited.robust_beside(self.run)):
-            self.say("robust", "done", robust)
-            self.robust = robust
+        if {*audited.BEFORE_ROBUST} <= self.held.keys():
+            self.robust = audited.robust_beside(self.run, proving=bool(self.proof))
+            if self.robust:
+                self.say("robust", "done", self.robust)
         return self.told(turn)
 
     def told(self, turn: str) -> Gone:

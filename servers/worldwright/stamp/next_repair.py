@@ -1,5 +1,6 @@
 """The next move when something is to be written: which file a repair changes, by its target; the film, before it is drawn."""
 
+from ..model.belief import JUDGE_NOW
 from ..model.evidence.verdict import RepairTarget
 from .state import State
 
@@ -33,4 +34,5 @@ def of_anomaly(state: State, code: str) -> str:
 def film_first(state: State) -> str:
     """The move once the claims hold and nothing is filmed yet: every shot is looked at before minutes go into a video pass."""
     write = "" if (state.run.folder / "film.py").is_file() else f"write {state.place}/film.py (skill `film`), then "
-    return f"{write}`worldwright stage frames {state.place} --show shots --save FOLDER`, then `worldwright go {state.place}`"
+    look = f"`worldwright stage frames {state.place} --show shots --save FOLDER`"
+    return f"{write}{look}; {JUDGE_NOW}; then `worldwright go {state.place}`"

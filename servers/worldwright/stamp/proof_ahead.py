@@ -1,6 +1,7 @@
 """The proof run of a long physics, begun once its claims hold, while the film is made and looked at: acceptance then finds it.
 
-A process of its own makes it, behind all other work. It proves what was there when it began: once the program, the plan or what
+A process of its own makes it, as urgent as all other work: acceptance waits for it. What nothing waits for, the worlds a little
+otherwise, begins where it ends. It proves what was there when it began: once the program, the plan or what
 they use is changed, it ends its jobs and itself. Nothing is decided by it; acceptance asks all its questions when it is called.
 """
 
@@ -22,8 +23,8 @@ MODULE = "worldwright.proof_beside"
 """What the process runs."""
 LONG_S = 20.0
 """A physics pass that took less is proved while acceptance is waited for."""
-BEHIND, LOOK_S = 10, 5.0
-"""Its priority, and how often it looks whether what it proves is still there, s."""
+LOOK_S = 5.0
+"""How often it looks whether what it proves is still there, s."""
 SWITCH, OFF = "WORLDWRIGHT_BESIDE", "0"
 """The variable that keeps a machine from doing anything unasked, and how."""
 
@@ -56,7 +57,7 @@ def begin(run: Run) -> str:
 
 
 def finish(run: Run) -> bool:
-    """Make it to its end; False when what it proves was changed meanwhile. Lowers the priority of the calling process for good.
+    """Make it to its end; False when what it proves was changed meanwhile.
 
     Raises:
         WorldwrightError: why it is no proof; acceptance will tell the same.
@@ -64,8 +65,6 @@ def finish(run: Run) -> bool:
     state = State(run)
     if state.key is None:
         return False
-    with suppress(OSError):
-        os.nice(BEHIND)
     near, work = take(run).near, private.proofs(run, state.key.key)
     program = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py").source.encode()
     plan, kept = state.plan_bytes or b"", repeats.laid_out(state, work / "kept")

@@ -9,6 +9,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
+from ..model.belief import BELIEVED
 from ..model.evidence.reports import VisualDescription
 from ..model.evidence.verdict import Verdict
 from .refusal import Refusal
@@ -17,8 +18,6 @@ from .state import State
 ROLE = "world-visual"
 """Who names blindly; a person who describes may."""
 EVENT = "event"
-BELIEVED = 7
-"""Of 10: below it, one repair of the look is due."""
 DETAILS = 3
 JOINED = ("weld", "hinge", "ball")
 NUMBER = re.compile(r"[_-]?\d+$")

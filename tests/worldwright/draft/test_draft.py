@@ -133,6 +133,26 @@ def test_what_cannot_be_drafted_is_left_to_the_author_by_name():
     assert "program.main(build, control" in drafted.source
 
 
+def test_a_tie_that_holds_throughout_belongs_into_build_as_an_equality():
+    thread = {"kind": "constraint", "bodies": ["thread"], "law": "feed = 2 mm per turn of pivot", "source": "M12"}
+    pendulum = {**PENDULUM, "topology": {"joints": [
+        *PENDULUM["topology"]["joints"], {"name": "feed", "type": "slide", "child": "puck", "axis": [0, 0, 1]},
+    ]}}  # fmt: skip
+
+    def drafted(row):
+        parameters = {**PENDULUM["simulation_parameters"], "interventions": [row]}
+        return draft(Plan.model_validate({**pendulum, "simulation_parameters": parameters}), LAYOUT)
+
+    tied = drafted(thread)
+    (place,) = tied.open_places
+    tie = "spec.add_equality(name='thread', type=mujoco.mjtEq.mjEQ_JOINT, name1='feed', name2='pivot')"
+    assert tie in place and "in build(), not in control()" in place
+    assert "AUTHOR: constraint on thread" in tied.source.partition("return spec")[0]
+    assert "def control" not in tied.source
+    for change in ({"trigger": "at 2 s"}, {"law": "breaks at 50 N"}):
+        assert "in control()" in drafted({**thread, **change}).open_places[0]
+
+
 def test_a_wind_that_the_medium_blows_leaves_nothing_to_write():
     row = {"kind": "force", "bodies": ["wind"], "law": "air at 3 m/s along +x", "source": "the prompt's breeze"}
     medium = {"wind": [3.0, 0, 0], "source": "Beaufort 2"}

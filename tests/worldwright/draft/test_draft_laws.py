@@ -61,6 +61,25 @@ def test_a_law_is_made_of_the_plans_constants_and_handed_over(drafted):
     assert "# AUTHOR: the law rubber: add what it moves" in made.source
 
 
+def test_a_constant_that_a_solver_reads_too_is_defined_for_the_law_that_takes_it(drafted, tmp_path):
+    plan = tmp_path / "plan.md"
+    heat = """\
+  warm: {value: [800, 333], unit: K, source: "a hot plate; hot water"}
+  heat_capacity: {value: 460, unit: J/(kg K), source: "steel"}
+interventions:
+  - kind: solver
+    bodies: [weight, beam]
+    law: "each begins at constants.warm"
+    source: constants.warm, constants.heat_capacity
+    solver: {name: heat, constants: {warm: warm, specific_heat: heat_capacity}}
+"""
+    plan.write_text(plan.read_text().replace("interventions:\n", heat))
+    made = drafted(RUBBER.replace("shear, density", "warm, shear"))
+    assert "RUBBER_LAW = Rubber(warm=WARM, shear=SHEAR)\n" in made.source
+    assert "\nWARM = (800.0, 333.0)  # K" in made.source
+    assert "HEAT_CAPACITY" not in made.source, "only the solver reads it"
+
+
 def test_what_no_constant_is_called_is_left_open(drafted):
     made = drafted(RUBBER.replace("density, finer", "stiff, *, tied, finer"))
     assert "RUBBER_LAW = Rubber(shear=SHEAR)\n" in made.source

@@ -112,6 +112,11 @@ def test_bad_plans_are_found(rule, change):
     assert all(problem.section and problem.message and problem.fix for problem in found)
 
 
+def test_a_cause_that_pushes_nothing_is_refused_with_one_that_works():
+    found = next(f for f in engine.check_plan_rules(plan_with(unknown_cause.BAD[-2]), "plan.md") if f.code == "WP115")
+    assert found.severity == "error" and "`heat` pushes nothing" in found.message and "without it: ramp;" in found.fix
+
+
 def test_a_law_that_is_named_as_a_cause_is_refused_with_the_words_for_what_it_does():
     found = next(f for f in engine.check_plan_rules(plan_with(unknown_cause.BAD[-1]), "plan.md") if f.code == "WP115")
     assert found.severity == "error" and "solver:crate, solver:world" in (found.fix or "")

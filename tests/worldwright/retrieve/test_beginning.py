@@ -36,6 +36,10 @@ NEAREST = {
     "A rock is hurled over a wall": {"stone-across-river"},
     "A magnet draws a steel nut across a desk": {"magnet-and-ball"},
     "A magnet falls through a copper pipe": {"copper-tube"},
+    "A sponge is squeezed tightly, compressing the sponge": {"rubber-band"},
+    "Dough is kneaded by a wooden board": {"rubber-band"},
+    "A lump of clay is dented by a thumb": {"rubber-band"},
+    "A spring is compressed and released": {"spring-toy-launches"},
     "A heated ball no longer fits through a ring": {"ball-and-ring"},
 }
 """Sentences that no example has, each with the worlds that show its mechanism."""
@@ -217,6 +221,9 @@ def test_every_word_of_the_table_means_something_that_there_is():
         ("Paint flows down a pane of glass", ("flowing",)),
         ("Glue drips and lava oozes", ("flowing",)),
         ("A paint can falls beside a bottle of ink", ()),
+        ("A sponge is squeezed tightly, compressing the sponge", ("soft", "pressed")),
+        ("A coil spring is squeezed", ("spring",)),
+        ("A tennis ball is dropped on clay", ("bouncing",)),
         ("A drone hovers in gusts", ("air", "robot")),
         ("A robot arm picks up a mug", ("robot",)),
         ("Nothing of the kind", ()),

@@ -74,6 +74,7 @@ def test_a_film_is_seen_at_moments_and_shot_by_shot_before_its_video(
     assert again == sheet and min(p.name for p in again.folder.iterdir()).startswith("01-shots-sheet-1")
     assert str(again.folder) in again.data.text() and held == key
     assert [line[:6] for line in sheet.data.captions[:3]] == ["shot 1", "shot 2", "all 6 "]
+    assert any(line.startswith("judge belief now") for line in sheet.data.captions)
     assert "ball 0, " not in sheet.data.captions[0] and "speed 0.5" in sheet.data.captions[1]
     (page,) = [cv2.imdecode(np.frombuffer(p.data, np.uint8), cv2.IMREAD_COLOR) for p in sheet.pictures]
     assert page.shape[1] > 2 * page.shape[0]  # two rows of three

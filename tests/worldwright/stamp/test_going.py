@@ -152,6 +152,7 @@ def test_the_walk_ends_where_it_is_told_to(fresh, monkeypatch):
     assert not [job for job in (fresh / "jobs").iterdir() if job.name.startswith(("stills", "video"))]
     monkeypatch.setattr(scan, "smallest", lambda _: pytest.fail("the recording is read again"))
     assert gone.next_move.startswith("write ") and "film.py" in gone.next_move and "--show shots" in gone.next_move
+    assert "judge belief now" in gone.next_move and "Below 7" in gone.next_move
     assert "smallest" in gone.held["scan"] and stamp.go(str(fresh), until="expect").held["scan"] == gone.held["scan"]
 
 

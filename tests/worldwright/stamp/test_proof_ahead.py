@@ -4,20 +4,25 @@ import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from worldwright import proof_beside
+from worldwright.model.errors import NotFoundError
 from worldwright.model.evidence.run import Run
-from worldwright.stamp import audited, private, proof_ahead
+from worldwright.stage import tools as stage
+from worldwright.stage.job import JobStatus
+from worldwright.stamp import audited, private, proof_ahead, proof_told
 from worldwright.stamp import tools as stamp
+from worldwright.stamp.accepted import Accepted
 from worldwright.stamp.state import State
 
 
 @pytest.fixture
 def measured(reviewed: Path, copy: Callable[[Path], Path], monkeypatch: pytest.MonkeyPatch) -> Run:
     monkeypatch.delenv(proof_ahead.SWITCH)
-    monkeypatch.setattr(os, "nice", lambda _: 0)  # the tests' own process keeps its priority
+    monkeypatch.setattr(os, "nice", lambda _: pytest.fail("acceptance waits for it: it is as urgent as all else"))
     return Run(copy(reviewed))
 
 
@@ -37,11 +42,47 @@ def test_of_a_long_one_a_process_makes_it_and_the_worlds_a_little_otherwise_wait
     assert "scan scan" in audited.robust_beside(measured) and len(begun) == 1
 
 
+def test_while_a_proof_is_made_ahead_the_worlds_a_little_otherwise_wait_for_its_end(
+    measured: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[Run] = []
+    monkeypatch.setattr(subprocess, "Popen", lambda words, **_: begun.append(words))
+    assert "once the proof run has ended" in audited.robust_beside(measured, proving=True) and not begun
+    monkeypatch.setattr(audited, "robust_beside", begun.append)
+    for whole in (False, True):
+        monkeypatch.setattr(proof_ahead, "finish", lambda _, whole=whole: whole)
+        proof_beside.main(str(measured.folder))
+    assert [run.folder for run in begun] == [measured.folder]
+
+
 @pytest.mark.slow
 def test_acceptance_finds_it(measured: Run) -> None:
     proof_beside.main(str(measured.folder))
     answer = stamp.accept(str(measured.folder), timeout_s=60)
     assert answer.ok and answer.proof_earlier
+
+
+def test_whoever_waits_for_it_is_told_how_far_it_is_and_what_is_beside_it(
+    measured: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    job = JobStatus(
+        job="physics-1", stage="physics", key="k", state="running", done=4, total=20, unit="s", wall_s=3, eta_s=12
+    )
+    film = job.model_copy(update={"job": "video-2", "stage": "video"})
+    stages = {str(tmp_path / "proof"): [job], str(measured.folder): [film]}
+
+    def status(folder: str) -> SimpleNamespace:
+        if folder not in stages:
+            raise NotFoundError("no job", next_move="begin one")
+        return SimpleNamespace(jobs=stages[folder], audits=[])
+
+    monkeypatch.setattr(stage, "status", status)
+    told = proof_told.line(State(measured), tmp_path, "proof")
+    assert "4/20 s, about 12 s left" in told and "then the world, driven again" in told
+    assert "beside it, on the same processor: video running" in told
+    assert "it begins" in proof_told.line(State(measured), tmp_path, "again")
+    answer = Accepted(state="proving", run="ball", under_way=told, next_move="worldwright stamp accept ball")
+    assert answer.text().startswith(f"ball: the proof run goes on: {told}\n  next: ")
 
 
 def test_what_is_changed_meanwhile_ends_it(measured: Run, monkeypatch: pytest.MonkeyPatch) -> None:

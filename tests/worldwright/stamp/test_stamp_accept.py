@@ -401,6 +401,7 @@ def test_a_proof_that_needs_longer_goes_on_by_itself(reviewed: Path, copy: Copy)
     folder = copy(reviewed)
     first = stamp.accept(str(folder), timeout_s=0.01)
     assert (first.ok, first.state) == (False, "proving")
+    assert "about " in first.under_way and first.under_way in first.text()
     assert not (folder / "accepted").exists()
     assert stamp.accept(str(folder), timeout_s=60).ok
 

@@ -8,7 +8,10 @@ from ..categories import Category
 from .checked_layout import CheckedLayout, others
 
 ABSURD = 3.0
-"""No variant of a thing is outside its category's range by this factor."""
+"""No variant of a model from the catalog is outside its category's range by this factor.
+
+What the author builds, of primitives or as a sculpture, is known by its name alone, and that may mislead: the bed of a press, a stove that is a plate.
+"""
 REACH_M = 0.8
 """A seat nearer to a table than this belongs to it."""
 KNEES_M = (0.15, 0.45)
@@ -18,7 +21,7 @@ KNEES_M = (0.15, 0.45)
 def check(layout: CheckedLayout) -> None:
     """Report WP316 for a height that its category does not have, WP317 for a seat that does not fit its table."""
     plan = layout.plan
-    alike: dict[tuple[Category, float], list[tuple[str, tuple[str | int, ...]]]] = {}
+    alike: dict[tuple[Category, float, bool], list[tuple[str, tuple[str | int, ...]]]] = {}
     heights: list[tuple[SceneObject | AssetRow, float, tuple[str | int, ...]]] = [
         (row, row.extents[2], ("scene_objects", index, "size")) for index, row in enumerate(plan.scene_objects)
     ]
@@ -31,14 +34,19 @@ def check(layout: CheckedLayout) -> None:
     for row, height, path in heights:
         category = categories.of(row, row.name)
         if category is not None and not category.low_m <= height <= category.high_m:
-            alike.setdefault((category, height), []).append((row.name, path))
-    for (category, height), rows in alike.items():
-        _height(layout, rows, category, height)
+            known = isinstance(row, AssetRow) and row.type != "sculpt"
+            alike.setdefault((category, height, known), []).append((row.name, path))
+    for (category, height, known), rows in alike.items():
+        _height(layout, rows, category, height, known)
     _seats(layout)
 
 
 def _height(
-    layout: CheckedLayout, rows: list[tuple[str, tuple[str | int, ...]]], category: Category, height: float
+    layout: CheckedLayout,
+    rows: list[tuple[str, tuple[str | int, ...]]],
+    category: Category,
+    height: float,
+    known: bool,
 ) -> None:
     """Report one finding for all alike objects."""
     factor = category.low_m / height if height < category.low_m else height / category.high_m
@@ -47,9 +55,10 @@ def _height(
         "unlikely_height",
         f"`{rows[0][0]}`{others(rows)} {'are' if rows[1:] else 'is'} {shown(height)} m high; a {category.name} is {shown(category.low_m)} to {shown(category.high_m)} m "
         f"({category.source})",
-        "correct its height, or say in its name that it is a `toy`, a `model` or `giant`",
+        "correct its height, or say in its name that it is a `toy`, a `model` or `giant`"
+        + ("" if known else ", or what it is if the name means something else"),
         rows[0][1],
-        severity="error" if factor > ABSURD else "warning",
+        severity="error" if known and factor > ABSURD else "warning",
     )
 
 

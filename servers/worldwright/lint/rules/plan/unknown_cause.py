@@ -3,8 +3,8 @@
 What it does: resolves every `cause` of an objective: objects, asset rows, joints, tendons, actuators, `gravity`, `wind`,
 `friction`, `control`, or `kind:target` of an intervention; of a body also `.weight`, `.friction` (at its contacts), and
 `.velocity` where it starts with one. Several may be
-joined by `+`. A solver or a law by its own name is an error: what it does to a body is taken away, `solver:BODY`. So is
-`gravity` with water in the world, which does not lie without it.
+joined by `+`. A solver or a law by its own name is an error: what it does to a body is taken away, `solver:BODY`. So is that of
+a solver which pushes nothing (`heat`), and `gravity` with water in the world, which does not lie without it.
 
 Why is this bad: the causal audit takes the cause away and looks whether the effect vanishes. What is not there cannot be
 taken away, so the objective stays without that proof; without a starting velocity the weakened world is the same world.
@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....model.plan.committed import Plan
+from ....model.plan.declared_inputs import Intervention
 from ....model.plan.imported import all_of, is_sculpt
 from ...case import Changes
 from ...harm import Argued
@@ -37,6 +38,10 @@ WATER = {
     "interventions": [{"kind": "solver", "bodies": ["crate"], "law": "Archimedes", "source": "CRC", "solver": {"name": "water"}}]
 }  # fmt: skip
 
+HEAT = {
+    "interventions": [{"kind": "solver", "bodies": ["crate", "ramp"], "law": "Newton", "source": "CRC", "solver": {"name": "heat"}}]
+}  # fmt: skip
+
 
 def _tow(name: str) -> dict:
     return {"name": name, "ends": [{"body": "crate"}, {"offset": [3.0, 0.0, 0.2]}], "slack": 0.5}
@@ -50,6 +55,7 @@ GOOD: Changes = (
     {"objectives": [{**CLAIM, "cause": "force:crate"}], "simulation_parameters": PUSH},
     {"objectives": [{**CLAIM, "cause": "solver:crate"}], "simulation_parameters": RUBBER},
     {"objectives": [{**CLAIM, "cause": ["crate", "solver:crate"]}], "simulation_parameters": WATER},
+    {"objectives": [{**CLAIM, "cause": "ramp"}], "simulation_parameters": HEAT},
     {"objectives": [{**CLAIM, "cause": "tow+tow_2"}], "topology": {"tendons": [_tow("tow"), _tow("tow_2")]}},
 )
 BAD: Changes = (
@@ -61,6 +67,7 @@ BAD: Changes = (
     {"objectives": [{**CLAIM, "cause": "gravity.velocity"}]},
     {"objectives": [{**CLAIM, "cause": "mug.velocity"}]},
     {"objectives": [{**CLAIM, "cause": "gravity + crate.velocity"}], "simulation_parameters": {"initial_motion": None}},
+    {"objectives": [{**CLAIM, "cause": "solver:crate"}], "simulation_parameters": HEAT},
     {"objectives": [{**CLAIM, "cause": "solver:rubber"}], "simulation_parameters": RUBBER},
 )
 EVIDENCE = Argued("no run can be made without a thing that is not in it; the audit refuses the name")
@@ -89,7 +96,13 @@ def check(view: PlanView) -> Iterator[Problem]:
                     what = "the cause `gravity` can't be taken away: the solver `water` has no surface without it"
                     yield view.at(("objectives", index, "cause"), what, fix, severity="error")
                     continue
-                kind = part.partition(":")[0]
+                kind, _, target = part.partition(":")
+                if kind == "solver" and (still := _pushing_nothing(plan, target)):
+                    others = [body for row in still for body in row.bodies if body != target]
+                    fix = f"name the body that it is warmed or cooled by, and does not touch without it: {', '.join(others)}; or leave `cause` out"
+                    what = f"the cause `{part}` can take nothing away: `{still[0].solver.name}` pushes nothing"  # type: ignore[union-attr]
+                    yield view.at(("objectives", index, "cause"), what, fix, severity="error")
+                    continue
                 whole, _, aspect = part.rpartition(".")
                 if whole in bodies and aspect == "velocity" and part not in known and not _starts_moving(plan, whole):
                     fix = f"name {whole}, {whole}.weight or what sets it moving; or give it an `initial_motion`"
@@ -124,6 +137,22 @@ def _lies_by_weight(plan: Plan) -> list[str]:
     return [
         b for row in rows if row.solver and getattr(SEAM.find(row.solver.name), "WEIGHTY", False) for b in row.bodies
     ]
+
+
+def _pushing_nothing(plan: Plan, body: str) -> list[Intervention]:
+    """The solvers' rows of a body, where none of them pushes anything; nothing where one does, or a law of the author's steps."""
+    from worldengine.solvers import SEAM
+
+    rows = [row for row in plan.simulation_parameters.interventions if row.kind == "solver" and body in row.bodies]
+    told = [row.solver for row in rows]
+    still = all(one and not one.file and one.name in SEAM.names() and not _pushes(one.name) for one in told)
+    return rows if still else []
+
+
+def _pushes(name: str) -> bool:
+    from worldengine.solvers import SEAM
+
+    return bool(getattr(SEAM.find(name), "PUSHES", True))
 
 
 def _acts_on(plan: Plan, cause: str) -> list[str]:
