@@ -1,8 +1,9 @@
-"""The proof run of a long physics, begun once its claims hold, while the film is made and looked at: acceptance then finds it.
+"""What acceptance needs of a world whose claims hold, begun at once, while its film is made and looked at.
 
-A process of its own makes it, as urgent as all other work: acceptance waits for it. What nothing waits for, the worlds a little
-otherwise, begins where it ends. It proves what was there when it began: once the program, the plan or what
-they use is changed, it ends its jobs and itself. Nothing is decided by it; acceptance asks all its questions when it is called.
+First the repetitions that its causes ask for, then, of a long physics, the proof run, and that part of the repetitions which
+acceptance simulates again. A process of its own makes them, as urgent as all other work: acceptance waits for them. What nothing
+waits for, the worlds a little otherwise, begins where it ends. It is about what was there when it began: once the program, the plan or
+what they use is changed, it ends its jobs and itself. Nothing is decided by it; acceptance asks all its questions when it is called.
 """
 
 import os
@@ -13,7 +14,7 @@ from contextlib import suppress
 from ..model import try_lock
 from ..model.errors import WorldwrightError
 from ..model.evidence.run import Run
-from . import private, repeats
+from . import audited, private, repeats, trials_again
 from .proof import Proved, prove
 from .state import State
 from .strip import strip
@@ -21,7 +22,7 @@ from .taken import take
 
 MODULE = "worldwright.proof_beside"
 """What the process runs."""
-LONG_S = 20.0
+LONG_S = 6.0
 """A physics pass that took less is proved while acceptance is waited for."""
 LOOK_S = 5.0
 """How often it looks whether what it proves is still there, s."""
@@ -36,10 +37,13 @@ def long(state: State) -> float:
 
 
 def begin(run: Run) -> str:
-    """Begin the proof run of a long physics, unless it is done or under way; what there is to say of it, one line, else empty."""
+    """Begin what acceptance needs, unless it is done or under way; what there is to say of it, one line, else empty."""
     state = State(run)
-    if os.environ.get(SWITCH) == OFF or not long(state) or state.key is None:
+    repeats_too = bool(audited.why_causes(state)) and audited.standing(state, state.causes) in ("absent", "stale")
+    if os.environ.get(SWITCH) == OFF or not (long(state) or repeats_too) or state.key is None:
         return ""
+    made = ["the repetitions that its causes ask for"] if repeats_too else []
+    made += [f"the proof run, about {long(state):.0f} s"] if long(state) else []
     with suppress(WorldwrightError, OSError):  # it only saves time: acceptance proves in any case
         work = private.proofs(run, state.key.key)
         handle = os.open(work, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
@@ -52,7 +56,7 @@ def begin(run: Run) -> str:
                 )  # fmt: skip
         finally:  # the process holds the lock by its own copy, and as long as it lives
             os.close(handle)
-        return f"the proof run, about {long(state):.0f} s, is made beside what comes next; `accept` finds it"
+        return f"{', then '.join(made)}: made beside what comes next; `go` and `accept` find it"
     return ""
 
 
@@ -65,6 +69,14 @@ def finish(run: Run) -> bool:
     state = State(run)
     if state.key is None:
         return False
+    if audited.why_causes(state):
+        from ..scan.tools import scan
+
+        while scan(str(run.folder), causes=True, timeout_s=LOOK_S).pending:
+            if _changed(run, state):
+                return False
+    if not long(state):
+        return True
     near, work = take(run).near, private.proofs(run, state.key.key)
     program = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py").source.encode()
     plan, kept = state.plan_bytes or b"", repeats.laid_out(state, work / "kept")
@@ -76,6 +88,9 @@ def finish(run: Run) -> bool:
         if _changed(run, state):
             return False
     while repeats.driven_again(work / "again", program, plan, proved, timeout_s=LOOK_S) is None:
+        if _changed(run, state):
+            return False
+    while trials_again.before_signing(State(run), proved, work, LOOK_S) is None:
         if _changed(run, state):
             return False
     return True

@@ -11,6 +11,7 @@ import pytest
 from worldwright import proof_beside
 from worldwright.model.errors import NotFoundError
 from worldwright.model.evidence.run import Run
+from worldwright.scan import tools as scan
 from worldwright.stage import tools as stage
 from worldwright.stage.job import JobStatus
 from worldwright.stamp import audited, private, proof_ahead, proof_told
@@ -37,7 +38,7 @@ def test_of_a_long_one_a_process_makes_it_and_the_worlds_a_little_otherwise_wait
     monkeypatch.setattr(subprocess, "Popen", lambda words, **_: begun.append(words))
     monkeypatch.setattr(proof_ahead, "LONG_S", 0.0)
     monkeypatch.setattr(audited, "LONG_S", 0.0)
-    assert "`accept` finds it" in proof_ahead.begin(measured)
+    assert "`go` and `accept` find it" in proof_ahead.begin(measured)
     assert begun[0][3:5] == [proof_ahead.MODULE, str(measured.folder)]
     assert "scan scan" in audited.robust_beside(measured) and len(begun) == 1
 
@@ -55,8 +56,26 @@ def test_while_a_proof_is_made_ahead_the_worlds_a_little_otherwise_wait_for_its_
     assert [run.folder for run in begun] == [measured.folder]
 
 
+def test_the_repetitions_that_causes_ask_for_come_first_also_of_a_short_physics(
+    measured: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+
+    def scanned(folder: str, **_: object) -> SimpleNamespace:
+        asked.append(folder)
+        return SimpleNamespace(pending=("without the push",) * (len(asked) < 3))
+
+    monkeypatch.setattr(audited, "why_causes", lambda _: "objective 0 names its cause")
+    monkeypatch.setattr(audited, "standing", lambda *_: "absent")
+    monkeypatch.setattr(subprocess, "Popen", lambda *_, **__: None)
+    assert "repetitions" in proof_ahead.begin(measured) and "proof run" not in proof_ahead.begin(measured)
+    monkeypatch.setattr(scan, "scan", scanned)
+    assert proof_ahead.finish(measured) is True and asked == [str(measured.folder)] * 3
+
+
 @pytest.mark.slow
-def test_acceptance_finds_it(measured: Run) -> None:
+def test_acceptance_finds_it(measured: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(proof_ahead, "LONG_S", 0.0)
     proof_beside.main(str(measured.folder))
     answer = stamp.accept(str(measured.folder), timeout_s=60)
     assert answer.ok and answer.proof_earlier
@@ -92,6 +111,7 @@ def test_what_is_changed_meanwhile_ends_it(measured: Run, monkeypatch: pytest.Mo
     def proved(*_: object, **__: object) -> None:
         measured.plan.write_text(measured.plan.read_text().replace("\n", "\n\n", 1))
 
+    monkeypatch.setattr(proof_ahead, "LONG_S", 0.0)
     monkeypatch.setattr(proof_ahead, "prove", proved)
     assert proof_ahead.finish(measured) is False
     assert not (private.proofs(measured, before.key.key) / "again").exists()
