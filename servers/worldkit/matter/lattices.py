@@ -46,9 +46,9 @@ def weights(at: Array) -> Array:
 
 
 def _turned(at: Array) -> Array:
-    """(8, 3) how the shares change with the place (3,) in the cell."""
-    one, sign = np.where(CORNERS > 0, at, 1 - at), 2 * CORNERS - 1
-    return np.stack([sign[:, a] * one[:, (a + 1) % 3] * one[:, (a + 2) % 3] for a in range(3)], axis=1)
+    """(n, 8, 3) how the shares change with the places (n, 3) in the cell."""
+    one, sign = np.where(CORNERS > 0, at[:, None], 1 - at[:, None]), 2 * CORNERS - 1
+    return np.stack([sign[:, a] * one[..., (a + 1) % 3] * one[..., (a + 2) % 3] for a in range(3)], axis=-1)
 
 
 def filled(shape: Shape, cell: float, name: str) -> Lattice:
@@ -101,7 +101,7 @@ def _snapped(shape: Shape, nodes: Array, cells: Array, outer: Array, side: float
 
 def _measured(nodes: Array, cells: Array) -> tuple[Array, Array]:
     """Slopes (c, 8, 8, 3), 1/m, of the corners' shares at each point of strain, and its room (c, 8), m^3."""
-    here = np.array([_turned(at) for at in GAUSS])
+    here = _turned(GAUSS)
     jacobian = np.einsum("cka,qkb->cqab", nodes[cells], here)
     room = np.linalg.det(jacobian) / 8
     safe = np.where(np.abs(room)[..., None, None] > 1e-30, jacobian, np.eye(3))
@@ -123,7 +123,7 @@ def ridden(lattice: Lattice, corners: Array) -> tuple[Array, Array]:
         at = np.full((len(corners), 3), 0.5)
         for _ in range(6):
             off = np.einsum("nk,nka->na", weights(at), lattice.nodes[nodes]) - corners
-            turn = np.einsum("nka,nkb->nab", lattice.nodes[nodes], np.array([_turned(place) for place in at]))
+            turn = np.einsum("nka,nkb->nab", lattice.nodes[nodes], _turned(at))
             at = np.clip(at - np.linalg.solve(turn, off[..., None])[..., 0], -0.7, 1.7)
         outside = np.abs(at - 0.5).max(axis=1)
         better = outside < best - 1e-9

@@ -6,7 +6,7 @@ from worldkit import sculpt
 from worldkit.matter import Moulded, clay
 from worldkit.sculpt.deformed import noise
 
-BLOCK = sculpt.box((0.14, 0.14, 0.07), rounded=0.012)  # m
+BLOCK = sculpt.box((0.16, 0.16, 0.08), rounded=0.014)  # m
 TOP = 0.018  # m: the board's
 
 
@@ -23,6 +23,6 @@ class Clay(Moulded):
 
     def __init__(self, clay_density, clay_young, clay_yields):
         super().__init__(
-            clay(clay_density, clay_young, clay_yields), BLOCK, (0, 0, TOP + 0.035), 0.01,
-            skin=sculpt.rough(BLOCK, 0.0008, 0.012, seed=2), grain=0.0026, paint=worn,
+            clay(clay_density, clay_young, clay_yields), BLOCK, (0, 0, TOP + 0.04), 0.0135,
+            skin=sculpt.rough(BLOCK, 0.0008, 0.012, seed=2), grain=0.003, paint=worn,
         )  # fmt: skip
