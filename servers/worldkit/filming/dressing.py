@@ -273,12 +273,13 @@ class Dressing(Smoke):
         aim: Vec3 | None = None,
         cone_deg: float = 40.0,
         radius: float = 0.0,
+        seen: bool = True,
         to: str = "",
     ) -> None:
         """A lamp at `pos` (m), in the world or fixed `to` a body: it shines around, or with `aim` in a cone towards a point.
 
         A white surface that faces it at one metre has radiance `strength` (the key light gives about 2). With a `radius`, m,
-        a glowing ball is drawn around it. At most 64; the preview draws the eight strongest, and shadows of four.
+        a glowing ball is drawn around it, unless `seen` is False. At most 64; the preview draws the eight strongest, and shadows of four.
 
         Raises:
             ProgramError: there are too many, or a number is none that a lamp may have.
@@ -294,7 +295,7 @@ class Dressing(Smoke):
                 "check its numbers",
             )
         self._carrier(to)
-        if radius > 0:
+        if radius > 0 and seen:
             self.draw(
                 name, "sphere", 2 * radius, pos=pos, look=Surface(colour=colour, glow=min(6.0, 2 + strength)), to=to
             )
