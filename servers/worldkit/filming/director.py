@@ -192,6 +192,8 @@ class Film(Labelled, Limbs):
         }  # fmt: skip
         if puffs := self._blown(times, arrays):
             facts["puffs"] = puffs
+        if clouds := self._clouded(arrays):
+            facts["clouds"] = clouds
         self.line = 1
         facts |= {"breeze": self._breeze} if self._breeze else {}
         return facts | ({"gobo": self._gobo} if self._gobo else {}), arrays

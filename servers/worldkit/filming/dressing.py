@@ -11,13 +11,13 @@ from . import groves, sward, swaying_weights
 from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, opaque, rgb
 from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, SMOOTHEST, STORM_M_S
 from .ground import Height
+from .law_clouds import Clouds
 from .own_names import OwnNames
 from .plain_refusals import line, whole
 from .recorded import Recorded
-from .smoke import Smoke
 
 
-class Dressing(Smoke):
+class Dressing(Clouds):
     """The things and looks of a film; `recorded` is what happened."""
 
     def __init__(self, recorded: Recorded) -> None:
