@@ -118,7 +118,7 @@ def test_it_is_uneven_and_bright_where_a_smear_is_neither() -> None:
     places = np.stack([np.zeros(count), np.full(count, 2.0), np.linspace(-0.6, 0.6, count)], axis=1)
     wide, opaque = np.full(count, 0.4), np.full(count, 0.3)
     whole = (places, wide / 2, opaque)
-    torn = wisps.spun(places, np.zeros((count, 3)), wide, opaque, np.ones(count), np.arange(count), count)
+    torn = wisps.spun(places, np.zeros((count, 3)), wide, opaque, np.ones(count), np.arange(count), count, 0.4)
 
     def middle(parts):
         cloud = SimpleNamespace(puffs=lambda frame: parts, rgb=(1.0, 1.0, 1.0))
@@ -128,3 +128,26 @@ def test_it_is_uneven_and_bright_where_a_smear_is_neither() -> None:
     smooth, uneven = middle(whole), middle(torn)
     assert uneven.std() > 3 * smooth.std()
     assert uneven.mean() > 0.6 * smooth.mean() and uneven.max() >= smooth.max()
+
+
+def test_from_frame_to_frame_wisps_go_with_their_puff_and_do_not_tremble() -> None:
+    count, random = 40, np.random.default_rng(2)
+    places, way = random.uniform(-0.5, 0.5, (count, 3)), np.tile([0.0, 0.0, 0.3], (count, 1))
+    wide, numbers = np.full(count, 0.1), np.arange(count)
+
+    def at(seconds: float, wider: float) -> np.ndarray:
+        found = places + seconds * way
+        return wisps.spun(found, way, wide + wider, np.full(count, 0.3), 1.0 + seconds + 0 * wide, numbers, count, 0.1)[
+            0
+        ]
+
+    gone = np.linalg.norm(at(1 / 24, 0.002) - at(0.0, 0.0), axis=1)
+    assert gone.max() < 3 * 0.3 / 24
+
+
+def test_what_an_emitter_gives_is_torn_to_wisps_but_for_what_is_too_many() -> None:
+    few, many = (np.zeros((count, 3)) for count in (50, 20_000))
+    at, radius, opaque = wisps.torn(few, np.full(50, 0.2), np.where(np.arange(50) < 25, 0.3, 0.0), 0.1)
+    assert len(at) == len(radius) == len(opaque) == 25 * wisps.EACH and np.linalg.norm(at, axis=1).max() < 0.2
+    assert wisps.torn(many, np.full(20_000, 0.2), np.full(20_000, 0.3), 0.1)[0] is many
+    assert len(wisps.torn(few, np.zeros(50), np.zeros(50), 0.1)[0]) == 50

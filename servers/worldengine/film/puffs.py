@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .wisps import depth_of, torn
+
 if TYPE_CHECKING:
     from .carrying import Surfaces
     from .treatment import Treatment
@@ -40,6 +42,7 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
         raise ValueError(f"a film has at most {bounds.MOST_EMITTERS} kinds of puffs, not {len(told['puffs'])}")
     for one in told.get("puffs", ()):
         row: dict[str, Any] = {"name": str(one["name"])[:60], "rgb": tuple(float(v) for v in one["rgb"])}
+        row["eddies_m"] = min(max(float(one.get("eddies_m", 0.0)), 0.0), bounds.FAR_M)
         row |= {what: str(one[what]) for what in ("places", "wide", "opaque")}
         places, wide, opaque = (arrays[str(one[what])] for what in ("places", "wide", "opaque"))
         good = (
@@ -55,11 +58,6 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
     return tuple(found)
 
 
-def depth_of(opaque: Array) -> Array:
-    """The optical depth in the middle of puffs that hide such shares of what is behind them."""
-    return np.asarray(-np.log1p(-np.minimum(opaque, 0.98)))
-
-
 def over(
     picture: Array,
     arrays: dict[str, Array],
@@ -71,8 +69,11 @@ def over(
 ) -> Array:
     """The picture (H, W, 3), uint8, with the puffs of a frame, rows as `check` returns them, and the clouds (`wisps.Cloud`) of laws; `shown`
     is what it shows."""
-    rows = [(np.asarray(arrays[one["places"]][frame], float), arrays[one["wide"]][frame] / 2,
-             arrays[one["opaque"]][frame], one["rgb"]) for one in puffs]  # fmt: skip
+    rows = []
+    for kind in puffs:
+        found, wide, opaque = (np.asarray(arrays[kind[what]][frame], float) for what in ("places", "wide", "opaque"))
+        eddies = kind.get("eddies_m", 0.0)
+        rows.append((*(torn(found, wide, opaque, eddies) if eddies else (found, wide / 2, opaque)), kind["rgb"]))
     rows += [(*cloud.puffs(frame), cloud.rgb) for cloud in clouds]
     places = np.concatenate([row[0] for row in rows])
     radius, opaque = (np.concatenate([np.asarray(row[n], float) for row in rows]) for n in (1, 2))
@@ -97,7 +98,7 @@ def over(
     colour = (rgb**2.2) * light[:, None]
     edges = np.geomspace(deep.min() * 0.999, deep.max() * 1.001, SLICES + 1)
     slices = np.clip(np.searchsorted(edges, deep) - 1, 0, SLICES - 1)
-    white = _white(picture) * _tint(treatment)
+    white = _white(picture) * _tint(picture, treatment)
     out = (picture.astype(np.float32) / 255.0) ** 2.2
     far = np.where(shown.depth > 0, shown.depth, np.inf)
     if far.shape != (height, width):
@@ -172,10 +173,13 @@ def _sun(treatment: "Treatment") -> Array:
     return np.asarray(way / np.linalg.norm(way))
 
 
-def _tint(treatment: "Treatment") -> Array:
-    """(3,) linear: the colour of white smoke, a third that of the key light, the rest the surroundings', which are taken for white."""
+def _tint(picture: Array, treatment: "Treatment") -> Array:
+    """(3,) linear: the colour of white smoke, a little of the key light's and of what is bright in the picture, where lamps shine."""
+    some = picture[::4, ::4].reshape(-1, 3).astype(np.float32) / 255.0
+    luma = some.mean(axis=1)
+    bright = some[luma >= np.percentile(luma, 90)].mean(axis=0) ** 2.2
     key = np.asarray(treatment.light_rgb or (1.0, 1.0, 1.0), float) ** 2.2
-    return np.asarray(2 / 3 + key / 3 / max(float(key.max()), 1e-6))
+    return np.asarray(0.6 + 0.2 * sum(colour / max(float(colour.max()), 1e-6) for colour in (bright, key)))
 
 
 def _lit(places: Array, radius: Array, opaque: Array, sun: Array) -> Array:

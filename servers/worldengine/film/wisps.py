@@ -22,7 +22,7 @@ BODY = 0.4
 """The share of a puff that hangs between its strands, wide and soft."""
 BEGINS_M = 1e-3
 """A point that is farther than this from where it was first has set out."""
-UNEVEN = 0.9
+UNEVEN = 0.75
 """How unlike the wisps of a puff are: the spread of the logarithm of how much each hides."""
 TURNS, SHEAR, LOOKS_S = 1.1, 0.22, 0.02
 """Radians a second that a puff turns at most; how far the air shears it, in its diameters; between two looks at which way it goes, s."""
@@ -54,7 +54,8 @@ class Cloud:
         alive = np.flatnonzero((age >= 0) & (wide > 0) & (opaque > 0))
         before, here, after = self.laws.points(self.law, np.array([time - LOOKS_S, time, time + LOOKS_S]))
         way = (after - before)[alive] / (2 * LOOKS_S)
-        return spun(here[alive], way, wide[alive], opaque[alive], age[alive], alive, len(age))
+        eddies = float(np.mean(self.ages[1][self.ages[2] > 0])) if len(alive) else 1.0
+        return spun(here[alive], way, wide[alive], opaque[alive], age[alive], alive, len(age), eddies)
 
     def said(self) -> str:
         """What it is, for the statement."""
@@ -107,12 +108,35 @@ def set_out(times: Array, places: Array) -> Array:
     return np.where(gone.any(axis=0), times[np.maximum(gone.argmax(axis=0) - 1, 0)], np.inf)
 
 
-def spun(
-    places: Array, ways: Array, wide: Array, opaque: Array, age: Array, numbers: Array, count: int
-) -> tuple[Array, Array, Array]:
-    """The wisps of puffs (P) at places, going `ways` (P, 3), m/s, of `numbers` among `count`: places, radii, opacities (P * K)."""
-    from .puffs import depth_of
+def depth_of(opaque: Array) -> Array:
+    """The optical depth in the middle of puffs that hide such shares of what is behind them."""
+    return np.asarray(-np.log1p(-np.minimum(opaque, 0.98)))
 
+
+def torn(places: Array, wide: Array, opaque: Array, eddies_m: float) -> tuple[Array, Array, Array]:
+    """The wisps of puffs (P) that nobody simulated, each with its own at every drawing; as they are, where there are too many to tear."""
+    count = len(wide)
+    alive = np.flatnonzero((wide > 0) & (opaque > 0))
+    if count * FEWEST > MOST_WISPS or not len(alive):
+        return places, wide / 2, opaque
+    still = np.zeros((len(alive), 3))
+    return spun(places[alive], still, wide[alive], opaque[alive], still[:, 0], alive, count, eddies_m)
+
+
+def spun(
+    places: Array,
+    ways: Array,
+    wide: Array,
+    opaque: Array,
+    age: Array,
+    numbers: Array,
+    count: int,
+    eddies_m: float,
+) -> tuple[Array, Array, Array]:
+    """The wisps of puffs (P) at places, going `ways` (P, 3), m/s, of `numbers` among `count`: places, radii, opacities (P * K).
+
+    Eddies of one size, m, shear them: of another in each frame, all would tremble.
+    """
     many = int(np.clip(MOST_WISPS // max(count, 1), FEWEST, EACH))
     offsets, sizes, shares, axes, turns = (part[numbers] for part in _cloth(count, many))
     angle = (turns * TURNS * np.minimum(age, 1e3))[:, None, None]
@@ -125,7 +149,7 @@ def spun(
     drawn_out = (0.1 * fast / (0.1 * fast + wide + 1e-9))[:, None, None]
     turned += drawn_out * along * (turned * along).sum(axis=2, keepdims=True)
     found = places[:, None, :] + wide[:, None, None] * turned
-    found += SHEAR * wide[:, None, None] * _air(found, float(np.median(wide)) if len(wide) else 1.0, age)
+    found += SHEAR * wide[:, None, None] * _air(found, eddies_m, age)
     own = wide[:, None] * sizes
     depth = depth_of(opaque)[:, None] * shares / sizes**2
     return found.reshape(-1, 3), own.ravel() / 2, -np.expm1(-depth).ravel()

@@ -149,6 +149,7 @@ class Smoke(PatternedLight):
             )
 
         self.puffs(name, at, colour=colour)
+        self._puffs[-1][0]["eddies_m"] = float(np.mean(diameter))
 
     def _source(self, name: str, source: Any) -> Callable[[Array], Array]:
         if callable(source):
