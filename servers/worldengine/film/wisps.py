@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Array = np.ndarray
 MOST_WISPS, EACH, FEWEST, STRAND = 24_000, 60, 3, 9
 """Wisps of a cloud in a frame, of one puff at most and at least, and so many of them make a strand."""
-BODY = 0.4
+BODY = 0.5
 """The share of a puff that hangs between its strands, wide and soft."""
 BEGINS_M = 1e-3
 """A point that is farther than this from where it was first has set out."""
