@@ -104,6 +104,8 @@ def test_a_point_that_waits_is_not_seen_until_it_sets_out() -> None:
     began = wisps.set_out(times, places)
     cloud = wisps.Cloud("m", "b", "law", (1, 1, 1), ages, began, laws, np.array([0.1, 0.25]))
     assert [len(cloud.puffs(frame)[0]) / wisps.EACH for frame in (0, 1)] == [1, 2]
+    nothing = wisps.Cloud("m", "b", "law", (1, 1, 1), ages, np.zeros(0), None, np.array([0.1]))
+    assert [len(part) for part in nothing.puffs(0)] == [0, 0, 0], "a recording without its points"
 
 
 def test_it_is_uneven_and_bright_where_a_smear_is_neither() -> None:

@@ -61,3 +61,10 @@ def test_one_law_is_one_cloud() -> None:
     told.cloud("steam", of="steam")
     with pytest.raises(ProgramError, match="is another's"):
         told.cloud("more steam", of="vapour")
+
+
+@pytest.mark.parametrize("of", ["steam", "vapour", ["vap*"]])
+def test_a_surface_is_of_a_law_as_a_cloud_is(of) -> None:
+    told = film()
+    told.surface("paint", of=of)
+    assert told.description()[0]["surfaces"][0]["of"] == ["vapour"]

@@ -52,9 +52,11 @@ class Cloud:
         age = time - self.began
         wide, opaque = (np.interp(age, self.ages[0], row) for row in self.ages[1:])
         alive = np.flatnonzero((age >= 0) & (wide > 0) & (opaque > 0))
+        if not len(alive):
+            return np.zeros((0, 3)), np.zeros(0), np.zeros(0)
         before, here, after = self.laws.points(self.law, np.array([time - LOOKS_S, time, time + LOOKS_S]))
         way = (after - before)[alive] / (2 * LOOKS_S)
-        eddies = float(np.mean(self.ages[1][self.ages[2] > 0])) if len(alive) else 1.0
+        eddies = float(np.mean(self.ages[1][self.ages[2] > 0]))
         return spun(here[alive], way, wide[alive], opaque[alive], age[alive], alive, len(age), eddies)
 
     def said(self) -> str:

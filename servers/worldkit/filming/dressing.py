@@ -238,7 +238,7 @@ class Dressing(Clouds):
     ) -> None:
         """Bodies or particles of one substance as one smooth surface, made for each picture from where they are then.
 
-        `of` names bodies, or particles that were drawn before, `*` standing for any letters: `film.surface("honey",
+        `of` names bodies, a law that one shows, or particles that were drawn before, `*` standing for any letters: `film.surface("honey",
         of="drop_*", look="honey")`. Their own shapes are left out. `blended`: their colours, mixed where they meet; those of a law too.
         `smooth`, 1 to 3: over how much more than its near neighbours' places a particle's place is evened out: 2 for what lies smooth,
         such as snow, cream, or a mound of honey; fine threads and splashes grow thinner with it.
@@ -249,7 +249,8 @@ class Dressing(Clouds):
         known(look)
         if not isinstance(smooth, (int, float)) or not 1.0 <= smooth <= SMOOTHEST:
             raise ProgramError(f"a surface is 1 to {SMOOTHEST:g} smooth, not {smooth!r}", "film.py", "try smooth=2")
-        wanted = [of] if isinstance(of, str) else list(of)
+        laws = self.recorded.shows
+        wanted = [laws.get(one, one) for one in ([of] if isinstance(of, str) else of)]
         names = [*self.recorded.bodies, *(thing.name for thing, *_ in self._grown if thing.shape == "sphere")]
         found = [each for each in names if any(fnmatchcase(each, pattern) for pattern in wanted)]
         taken = {each for one in self._surfaces for each in one["of"]}
