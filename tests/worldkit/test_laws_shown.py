@@ -50,6 +50,14 @@ def test_of_a_body_of_balls_that_shows_a_law_it_is_the_middle_of_the_points_and_
     assert told.recorded.radius("vapour") < 0.02 < told.recorded.reach(name) == pytest.approx(np.sqrt(5) / 2)
 
 
+def test_a_camera_that_follows_points_which_wait_in_one_place_stands_before_them() -> None:
+    """Before, it stood where it looked, and the film of a world that stands still was refused."""
+    told = Film(Recorded(STILL | {"law0_points": np.zeros((2, 2, 3))}))
+    told.shot(follow("steam", fill=0.25, lens_mm=50), until=4.0)
+    _, arrays = told.description()
+    assert np.linalg.norm(arrays["eye"], axis=1) == pytest.approx(np.full(len(arrays["eye"]), 0.395), abs=0.01)
+
+
 def test_points_and_sums_are_known_by_what_shows_them_too() -> None:
     recorded = Recorded(STILL)
     assert (recorded.points("sponge", 1.0) == recorded.points("soak", 1.0)).all()

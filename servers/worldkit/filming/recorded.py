@@ -15,6 +15,8 @@ from . import ground
 from .laws_shown import Laws
 
 WORLD = "world"
+LEAST_M = 0.02
+"""Points that wait in one place, as all do in a world that stands still, are looked at as if they were so large."""
 GROUND = ("vertices", "faces", "owner", "names")
 """Arrays of the triangles of what stands still."""
 
@@ -194,7 +196,7 @@ class Recorded:
 
     def reach(self, *names: str) -> float:
         """The `radius` of the largest of what a camera looks at, m; of a law's points, where they lie furthest apart."""
-        found = (self._laws.radius(name) if name in self._laws else self.radius(name) for name in names)
+        found = (max(self._laws.radius(name), LEAST_M) if name in self._laws else self.radius(name) for name in names)
         return max(found, default=0.5)
 
     def box(self, body: str) -> tuple[np.ndarray, np.ndarray]:
