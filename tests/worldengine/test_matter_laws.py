@@ -1,4 +1,4 @@
-"""The pages of the skill media on honey and snow: coarser and shorter, in a recorded world, with their sums."""
+"""The pages of the skill media on honey, snow and steam: coarser or shorter, in a recorded world, with their sums."""
 
 import re
 import types
@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from hung_springs import run
-from small_worlds import empty
+from small_worlds import empty, lay_film
+from worldengine.film import described, motion_facts
 from worldengine.inputs.declared_media import Medium
 from worldengine.recording import stored
 from worldkit import moved_shapes
+from worldkit.filming import Film, Recorded, still
 from worldkit.matter import Matter
 
 PAGES = Path(__file__).parents[2] / "skills" / "media" / "references"
@@ -71,3 +73,26 @@ def test_the_pages_snow_comes_down_with_its_mass(tmp_path: Path) -> None:
     assert 0.1 < lies.mean() < 0.5 and place[-1, lies, 2].min() > 0.89
     assert recording.balances.mass == pytest.approx(0.3)
     kept(recording)
+
+
+def test_the_pages_steam_rises_from_its_spout_with_its_sums_and_is_seen_as_it_leaves(tmp_path: Path) -> None:
+    steam = law_of("steam").Steam((0.1, 0, 0.2), (0.8, 0, 0.6))
+    spec = empty(time_step=0.004)
+    moved_shapes.grains(spec, "vapour", steam.points, 0.003)
+    recording = run(tmp_path / "out", steam, spec, (Medium("steam", (), "vapour", world=True),), steps=500)
+    sums = recording.balances
+    place = recording.media.place.reshape(len(sums), -1, 3)
+    assert place[-1, :, 2].max() > 0.5 and (place[-1, -60:] == place[0, -60:]).all(), "the last of them wait"
+    weight = np.array([0, 0, -9.81]) * sums.mass[:, None] * sums.step[:, None] * recording.time_step
+    assert np.abs(sums.momentum + sums.held - weight).max() < 1e-6 * np.abs(weight[-1]).max()
+    assert np.ptp(sums.energy) < 1e-4 * np.ptp(sums.stored)
+    motion_facts.write(recording, tmp_path / "motion.npz", {"fps": 24, "size": [64, 36], "movers": []})
+    with np.load(tmp_path / "motion.npz") as arrays:
+        film = Film(Recorded(dict(arrays)))
+    film.cloud("steam", of="steam", diameter=(0.015, 0.12), life=2.2, opacity=0.5)
+    film.shot(still((0, -1, 0.3), (0.1, 0, 0.3)), until=2.0)
+    lay_film(tmp_path, film)
+    told = described.read(tmp_path, recording)
+    seen = [len(told.clouds[0].puffs(frame)[0]) for frame in (1, 20, 40)]
+    assert seen[0] == 0 < seen[1] < seen[2]
+    assert told.clouds[0].began[:3] == pytest.approx(0.2 + np.arange(3) / 45, abs=0.03)

@@ -473,3 +473,12 @@ def test_a_surface_is_once_to_three_times_as_smooth(smooth):
         film.surface("honey", of="drop_1", look="honey", smooth=smooth)
     film.surface("honey", of="drop_1", look="honey", smooth=2)
     assert film._surfaces[0]["smooth"] == 2.0
+
+
+def test_the_bulb_of_a_lamp_may_be_left_unseen_as_a_panel_may() -> None:
+    film = Film(Recorded.rehearsal({"ball": np.zeros((4, 3))}, duration=1.0))
+    film.lamp("bulb", (0, 0, 1), radius=0.05)
+    film.lamp("fill", (1, 0, 1), radius=0.05, seen=False)
+    facts, _ = film.description()
+    assert [thing["name"] for thing in facts["things"]] == ["bulb"]
+    assert [lamp["name"] for lamp in facts["lamps"]] == ["bulb", "fill"]

@@ -53,6 +53,18 @@ def misspelt(film: Film) -> None:
     film.shoot()  # type: ignore[attr-defined]
 
 
+def boils(film: Film) -> float:
+    """When the kettle boils: never, in a world that stands still."""
+    times = np.linspace(0.0, 1.0, 11)
+    moved = film.recorded.position("ball", times)[:, 0] > 9.0
+    return float(times[moved.argmax()]) if moved.any() else 1.0
+
+
+def from_no_moment_on(film: Film) -> None:
+    film.shot(still((1, 0, 1), (0, 0, 0)), until=1.0)
+    film.shot(still((1, 0, 1), (0, 0, 0)), start=boils(film), until=1.0)
+
+
 def failure(told: Callable[[Film], None]) -> tuple[Exception, bool]:
     film = Film(Recorded(ARRAYS))
     try:
@@ -64,7 +76,9 @@ def failure(told: Callable[[Film], None]) -> tuple[Exception, bool]:
     raise AssertionError("it does not fail")
 
 
-@pytest.mark.parametrize(("told", "kind"), [(by_its_way, ProgramError), (by_its_touch, IndexError)])
+@pytest.mark.parametrize(
+    ("told", "kind"), [(by_its_way, ProgramError), (by_its_touch, IndexError), (from_no_moment_on, ProgramError)]
+)
 def test_what_the_missing_motion_may_have_done_is_no_fault_of_the_film(told, kind) -> None:
     error, may_hold = failure(told)
     assert isinstance(error, kind) and may_hold
@@ -87,3 +101,27 @@ def test_who_moves_is_motion_where_the_plan_names_nobody() -> None:
     assert named.movers == ("ball",) and not named.asked_of_motion
     named.into("ball", np.zeros((1, 3)))
     assert named.asked_of_motion
+
+
+def steaming(film: Film) -> None:
+    film.emit("steam", (0.0, 0.0, 1.0), start=boils(film))
+    film.emit("mist", (0.0, 0.0, 1.0), rate=lambda times: 100.0 * (times > boils(film)))
+    film.emit("dust", (0.0, 0.0, 1.0))
+    shot(film)
+
+
+def test_what_streams_from_a_moment_on_that_never_comes_is_left_out_where_nothing_moves_yet() -> None:
+    """Before, the film was refused: 'steam' would have 0 puffs at once, from 1 s to 1 s."""
+    film = Film(Recorded(ARRAYS))
+    film.recorded.unmoved = True
+    steaming(film)
+    assert [one["name"] for one in film.description()[0]["puffs"]] == ["dust"]
+    with pytest.raises(ProgramError, match="puffs at once, from 1 s to 1 s"):
+        steaming(Film(Recorded(ARRAYS)))
+
+
+def test_what_is_told_to_last_for_no_time_is_refused_there_too() -> None:
+    film = Film(Recorded(ARRAYS))
+    film.recorded.unmoved = True
+    with pytest.raises(ProgramError, match="puffs at once"):
+        film.emit("steam", (0.0, 0.0, 1.0), start=0.5, until=0.5)

@@ -11,7 +11,7 @@ from worldkit.filming import film_bounds as bounds
 from worldkit.filming.drawn_only import SHAPES
 from worldkit.scene import GROUND
 
-from . import gobos, ground_skins, puffs, stand_ins, time_map
+from . import gobos, ground_skins, puffs, stand_ins, swaying, time_map, wisps
 from .treatment import Treatments
 
 if TYPE_CHECKING:
@@ -58,6 +58,8 @@ class Described:
     breeze: tuple[float, float] | None = None
     """The wind that moves what sways, towards x and y, m/s."""
     puffs: tuple[dict[str, Any], ...] = ()
+    clouds: tuple[wisps.Cloud, ...] = ()
+    """What shows the points of a law, simulated as they are."""
 
     @property
     def frames(self) -> int:
@@ -93,6 +95,7 @@ class Described:
                 said.append(thing["name"] + (f" ({', '.join(filter(None, about))})" if any(about) else ""))
         said += [stand_ins.covered(one, self.things) for one in self.surfaces]
         said += [f"{one['name']} ({', '.join(filter(None, ('puffs', one.get('like'))))})" for one in self.puffs]
+        said += [cloud.said() for cloud in self.clouds]
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
         said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
@@ -201,7 +204,8 @@ def _checked(
     air = [_air(one) for one in told["air"]]
     return Described(
         tuple(shots), captions, Treatments(air, stated, gobos.told(told)), things, surfaces, lamps, panels, looks, share, samples,
-        arrays, _breeze(told), stand_ins.of_puffs(puffs.check(told, arrays, n), arrays, recording),
+        arrays, swaying.told(told), stand_ins.of_puffs(puffs.check(told, arrays, n), arrays, recording),
+        wisps.read(told, arrays, recording, [body for one in surfaces for body in one["of"]]),
     )  # fmt: skip
 
 
@@ -251,17 +255,6 @@ def _panel(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
     if not good or (to and to not in bodies):
         raise _refuse(f"the panel {name!r} is none that can be lit, or is fixed to no body")
     return found
-
-
-def _breeze(told: dict[str, Any]) -> tuple[float, float] | None:
-    import numpy as np
-
-    if told.get("breeze") is None:
-        return None
-    wind = np.asarray(told["breeze"], dtype=float)
-    if wind.shape != (2,) or not np.isfinite(wind).all() or not 0 < np.hypot(*wind) <= bounds.STORM_M_S * (1 + 1e-6):
-        raise _refuse(f"a breeze is a wind of at most {bounds.STORM_M_S:g} m/s")
-    return float(wind[0]), float(wind[1])
 
 
 def _caption(told: dict[str, Any]) -> dict[str, Any]:

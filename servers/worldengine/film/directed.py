@@ -144,14 +144,14 @@ class Screening:
 
     def lettered(self, frame: int, image: "np.ndarray") -> "np.ndarray":
         """A picture with the puffs and the words of a frame, which none can leave out: uint8 (height, width, 3)."""
-        if self.film.puffs and not self.puffless:
+        if (self.film.puffs or self.film.clouds) and not self.puffless:
             film, treatment = self.film, self.film.treatments.at(frame / self.fps)
             try:
                 shown = self.surfaces(frame)
             except Exception as error:  # drivers fail in ways of their own, and a film without mist is better than none
                 self.puffless = f"{type(error).__name__}: {error}"[:300]
                 return letter(image, frame / self.fps, self.film.captions, *self.words(frame))
-            image = puffs.over(image, film.arrays, film.puffs, frame, shown, treatment)
+            image = puffs.over(image, film.arrays, film.puffs, frame, shown, treatment, film.clouds)
         return letter(image, frame / self.fps, self.film.captions, *self.words(frame))
 
     def words(self, frame: int) -> tuple[float, bool, str, str, str]:

@@ -43,6 +43,9 @@ def dress(world: Path, film: Described) -> "mujoco.MjModel":
         _add(spec, film, thing)
     for one in film.surfaces:
         _cover(spec, film, one)
+    for cloud in film.clouds:
+        for geom in spec.body(cloud.of).geoms:
+            geom.group = HIDDEN_GROUP
     unseen.refuse(spec, film, before)
     for lamp in film.lamps:
         _light(spec, lamp)

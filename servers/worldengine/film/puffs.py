@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .wisps import depth_of, torn
+
 if TYPE_CHECKING:
     from .carrying import Surfaces
     from .treatment import Treatment
@@ -22,6 +24,8 @@ SLICES, FINE_PX, GRID, EXTENT = 14, 4.0, 20, 1.5
 a puff's picture, in radii of its bell."""
 DIM, DARKEST, BRIGHTEST = 0.45, 0.06, 0.92
 """The light of the surroundings beside the key's; the least and most bright that white smoke is developed."""
+SCATTERED = 0.2
+"""How much sooner than that light which comes through scattered has lost a share: what goes on forwards is not lost."""
 SUN = (0.35, -0.5, 0.8)
 
 
@@ -38,6 +42,7 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
         raise ValueError(f"a film has at most {bounds.MOST_EMITTERS} kinds of puffs, not {len(told['puffs'])}")
     for one in told.get("puffs", ()):
         row: dict[str, Any] = {"name": str(one["name"])[:60], "rgb": tuple(float(v) for v in one["rgb"])}
+        row["eddies_m"] = min(max(float(one.get("eddies_m", 0.0)), 0.0), bounds.FAR_M)
         row |= {what: str(one[what]) for what in ("places", "wide", "opaque")}
         places, wide, opaque = (arrays[str(one[what])] for what in ("places", "wide", "opaque"))
         good = (
@@ -53,11 +58,6 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
     return tuple(found)
 
 
-def depth_of(opaque: Array) -> Array:
-    """The optical depth in the middle of puffs that hide such shares of what is behind them."""
-    return np.asarray(-np.log1p(-np.minimum(opaque, 0.98)))
-
-
 def over(
     picture: Array,
     arrays: dict[str, Array],
@@ -65,10 +65,16 @@ def over(
     frame: int,
     shown: "Surfaces",
     treatment: "Treatment",
+    clouds: tuple[Any, ...] = (),
 ) -> Array:
-    """The picture (H, W, 3), uint8, with the puffs of a frame, rows as `check` returns them; `shown` is what it shows."""
-    rows = [(np.asarray(arrays[one["places"]][frame], float), arrays[one["wide"]][frame] / 2,
-             arrays[one["opaque"]][frame], one["rgb"]) for one in puffs]  # fmt: skip
+    """The picture (H, W, 3), uint8, with the puffs of a frame, rows as `check` returns them, and the clouds (`wisps.Cloud`) of laws; `shown`
+    is what it shows."""
+    rows = []
+    for kind in puffs:
+        found, wide, opaque = (np.asarray(arrays[kind[what]][frame], float) for what in ("places", "wide", "opaque"))
+        eddies = kind.get("eddies_m", 0.0)
+        rows.append((*(torn(found, wide, opaque, eddies) if eddies else (found, wide / 2, opaque)), kind["rgb"]))
+    rows += [(*cloud.puffs(frame), cloud.rgb) for cloud in clouds]
     places = np.concatenate([row[0] for row in rows])
     radius, opaque = (np.concatenate([np.asarray(row[n], float) for row in rows]) for n in (1, 2))
     rgb = np.concatenate([np.tile(row[3], (len(row[0]), 1)) for row in rows])
@@ -92,7 +98,7 @@ def over(
     colour = (rgb**2.2) * light[:, None]
     edges = np.geomspace(deep.min() * 0.999, deep.max() * 1.001, SLICES + 1)
     slices = np.clip(np.searchsorted(edges, deep) - 1, 0, SLICES - 1)
-    white = _white(picture)
+    white = _white(picture) * _tint(picture, treatment)
     out = (picture.astype(np.float32) / 255.0) ** 2.2
     far = np.where(shown.depth > 0, shown.depth, np.inf)
     if far.shape != (height, width):
@@ -167,6 +173,15 @@ def _sun(treatment: "Treatment") -> Array:
     return np.asarray(way / np.linalg.norm(way))
 
 
+def _tint(picture: Array, treatment: "Treatment") -> Array:
+    """(3,) linear: the colour of white smoke, a little of the key light's and of what is bright in the picture, where lamps shine."""
+    some = picture[::4, ::4].reshape(-1, 3).astype(np.float32) / 255.0
+    luma = some.mean(axis=1)
+    bright = some[luma >= np.percentile(luma, 90)].mean(axis=0) ** 2.2
+    key = np.asarray(treatment.light_rgb or (1.0, 1.0, 1.0), float) ** 2.2
+    return np.asarray(0.6 + 0.2 * sum(colour / max(float(colour.max()), 1e-6) for colour in (bright, key)))
+
+
 def _lit(places: Array, radius: Array, opaque: Array, sun: Array) -> Array:
     """(P,) how bright each puff is, up to 1: by the surroundings, and by what the others let through of the key light."""
     aside = np.cross(sun, (0.0, 0.0, 1.0) if abs(sun[2]) < 0.9 else (1.0, 0.0, 0.0))
@@ -181,7 +196,9 @@ def _lit(places: Array, radius: Array, opaque: Array, sun: Array) -> Array:
     wide = (wide[:-2] + 2 * wide[1:-1] + wide[2:]) / 4
     grid = (wide[:, :-2] + 2 * wide[:, 1:-1] + wide[:, 2:]) / 4
     before = np.cumsum(grid[:, :, ::-1], axis=2)[:, :, ::-1] - grid
-    through = np.exp(-before[tuple(cell.T)])
+    depth = before[tuple(cell.T)]
+    # What is white loses hardly any light to itself: most of what is turned aside comes on from puff to puff.
+    through = 0.35 * np.exp(-depth) + 0.65 * np.exp(-SCATTERED * depth)
     return np.asarray(DIM + (1 - DIM) * through)
 
 

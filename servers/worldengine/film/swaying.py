@@ -5,7 +5,7 @@ by flutter, and down as it bends. The shader `swaying.glsl` says the same.
 """
 
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import mujoco
@@ -16,6 +16,20 @@ FRESH_M_S, MOST = 8.0, 2.0
 """The speed at which weights are told, and how many times as far the strongest wind carries."""
 FLAG = 100.0
 """A thing whose kind is so large sways: its kind is then the time, s, above this."""
+
+
+def told(film: dict[str, Any]) -> tuple[float, float] | None:
+    """The breeze of a film's description, read with distrust; a ValueError for none that may be."""
+    import numpy as np
+
+    from worldkit.filming.film_bounds import STORM_M_S
+
+    if film.get("breeze") is None:
+        return None
+    wind = np.asarray(film["breeze"], dtype=float)
+    if wind.shape != (2,) or not np.isfinite(wind).all() or not 0 < np.hypot(*wind) <= STORM_M_S * (1 + 1e-6):
+        raise ValueError(f"a breeze is a wind of at most {STORM_M_S:g} m/s")
+    return float(wind[0]), float(wind[1])
 
 
 def add(spec: "mujoco.MjSpec", names: list[str]) -> None:

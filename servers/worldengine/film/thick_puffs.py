@@ -6,7 +6,7 @@ A puff hides by its optical depth on the way of a ray, exp(-depth) of what is be
 from typing import TYPE_CHECKING, Any
 
 from . import clumps
-from .puffs import depth_of
+from .wisps import depth_of
 
 if TYPE_CHECKING:
     import numpy as np

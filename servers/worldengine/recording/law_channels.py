@@ -12,7 +12,7 @@ MOST_NUMBERS = 40_000_000
 
 
 def read(recording: "Recording") -> dict[str, Any]:
-    """Arrays by name, empty without a medium: `law_names`, `law_grains`, the bodies of balls alone that show one, and of the medium with the number n its `law{n}_time` (F,) s,
+    """Arrays by name, empty without a medium: `law_names`, `law_shown_by`, `law_grains`, the bodies of balls alone that show one, and of the medium with the number n its `law{n}_time` (F,) s,
     `law{n}_points` (F, P, 3) m, and of a law `law{n}_at` (S,) s with `law{n}_mass`, `_energy`, `_stored`, `_volume` (S,)."""
     import numpy as np
 
@@ -24,6 +24,7 @@ def read(recording: "Recording") -> dict[str, Any]:
     medium, when, place = np.asarray(media.medium), np.asarray(media.step), np.asarray(media.place)
     thin = max(1, int(np.ceil(place.size / MOST_NUMBERS)))
     found: dict[str, Any] = {"law_names": np.array([row.name for row in rows], dtype=str)}
+    found["law_shown_by"] = np.array([row.shown_by for row in rows], dtype=str)
     found["law_grains"] = np.array(_grains(recording, {row.shown_by for row in rows}), dtype=str)
     for number in range(len(rows)):
         mine, steps = place[medium == number], np.unique(when[medium == number])

@@ -11,7 +11,7 @@ from .film_bounds import FAR_M, MOST_FRAMES, NATURAL_SHUTTER, PLACES
 from .frame_by_frame import grown, sampled
 from .lettered_plates import Labelled
 from .limbs import Limbs
-from .plain_refusals import line, refusing
+from .plain_refusals import NoTimeError, line, refusing
 from .recorded import Recorded
 from .viewpoints import Viewpoint, axes
 
@@ -53,7 +53,7 @@ class Film(Labelled, Limbs):
         begin = self.reached if start is None else float(start)
         end = min(float(until), self.recorded.duration)
         if not 0.0 <= begin < end:
-            raise ProgramError(
+            raise NoTimeError(
                 f"a shot from {begin:.3g} s to {end:.3g} s shows nothing of {self.recorded.duration:.3g} recorded seconds",
                 "film.py",
                 "give until= a later time, or start= an earlier one",
@@ -192,6 +192,8 @@ class Film(Labelled, Limbs):
         }  # fmt: skip
         if puffs := self._blown(times, arrays):
             facts["puffs"] = puffs
+        if clouds := self._clouded(arrays):
+            facts["clouds"] = clouds
         self.line = 1
         facts |= {"breeze": self._breeze} if self._breeze else {}
         return facts | ({"gobo": self._gobo} if self._gobo else {}), arrays

@@ -11,13 +11,13 @@ from . import groves, sward, swaying_weights
 from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, opaque, rgb
 from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, SMOOTHEST, STORM_M_S
 from .ground import Height
+from .law_clouds import Clouds
 from .own_names import OwnNames
 from .plain_refusals import line, whole
 from .recorded import Recorded
-from .smoke import Smoke
 
 
-class Dressing(Smoke):
+class Dressing(Clouds):
     """The things and looks of a film; `recorded` is what happened."""
 
     def __init__(self, recorded: Recorded) -> None:
@@ -238,7 +238,7 @@ class Dressing(Smoke):
     ) -> None:
         """Bodies or particles of one substance as one smooth surface, made for each picture from where they are then.
 
-        `of` names bodies, or particles that were drawn before, `*` standing for any letters: `film.surface("honey",
+        `of` names bodies, a law that one shows, or particles that were drawn before, `*` standing for any letters: `film.surface("honey",
         of="drop_*", look="honey")`. Their own shapes are left out. `blended`: their colours, mixed where they meet; those of a law too.
         `smooth`, 1 to 3: over how much more than its near neighbours' places a particle's place is evened out: 2 for what lies smooth,
         such as snow, cream, or a mound of honey; fine threads and splashes grow thinner with it.
@@ -249,7 +249,8 @@ class Dressing(Smoke):
         known(look)
         if not isinstance(smooth, (int, float)) or not 1.0 <= smooth <= SMOOTHEST:
             raise ProgramError(f"a surface is 1 to {SMOOTHEST:g} smooth, not {smooth!r}", "film.py", "try smooth=2")
-        wanted = [of] if isinstance(of, str) else list(of)
+        laws = self.recorded.shows
+        wanted = [laws.get(one, one) for one in ([of] if isinstance(of, str) else of)]
         names = [*self.recorded.bodies, *(thing.name for thing, *_ in self._grown if thing.shape == "sphere")]
         found = [each for each in names if any(fnmatchcase(each, pattern) for pattern in wanted)]
         taken = {each for one in self._surfaces for each in one["of"]}
@@ -273,12 +274,13 @@ class Dressing(Smoke):
         aim: Vec3 | None = None,
         cone_deg: float = 40.0,
         radius: float = 0.0,
+        seen: bool = True,
         to: str = "",
     ) -> None:
         """A lamp at `pos` (m), in the world or fixed `to` a body: it shines around, or with `aim` in a cone towards a point.
 
         A white surface that faces it at one metre has radiance `strength` (the key light gives about 2). With a `radius`, m,
-        a glowing ball is drawn around it. At most 64; the preview draws the eight strongest, and shadows of four.
+        a glowing ball is drawn around it, unless `seen` is False. At most 64; the preview draws the eight strongest, and shadows of four.
 
         Raises:
             ProgramError: there are too many, or a number is none that a lamp may have.
@@ -294,7 +296,7 @@ class Dressing(Smoke):
                 "check its numbers",
             )
         self._carrier(to)
-        if radius > 0:
+        if radius > 0 and seen:
             self.draw(
                 name, "sphere", 2 * radius, pos=pos, look=Surface(colour=colour, glow=min(6.0, 2 + strength)), to=to
             )

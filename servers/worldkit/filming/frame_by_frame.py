@@ -43,7 +43,7 @@ def sampled(shot: dict[str, Any], recorded: Recorded, number: int) -> dict[str, 
             for k in range(12)
         )
         target = target + camera.shake * 0.012 * away[:, None] * waves
-    point = recorded.position(camera.focus, times) if isinstance(camera.focus, str) else camera.focus
+    point = recorded.middle(camera.focus, times) if isinstance(camera.focus, str) else camera.focus
     if point is None:
         focus = away
     elif np.ndim(point):

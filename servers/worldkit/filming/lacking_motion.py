@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError, WorldkitError
+from .plain_refusals import NoTimeError
 
 AUTHORS = (NameError, AttributeError, TypeError, ImportError, SyntaxError)
 """No motion mends these."""
@@ -22,17 +23,19 @@ def may_hold(error: BaseException, told: Callable[[Any], Any] | None, arrays: Ma
     """Whether a film that failed with `error`, after it asked how things move, may be told of what really moves.
 
     What worldkit refuses (a name, a limit, a number that is none) is asked again of a world where everything moves and touches:
-    refused there in the same words, it is refused of any.
+    refused there in the same words, it is refused of any. A moment that is looked for and never comes, in a film that reckons until
+    when it lasts, is found in no made-up world.
     """
     from .director import Film
     from .recorded import Recorded
 
     if isinstance(error, AUTHORS) or not isinstance(error, Exception) or told is None:
         return False
-    if not isinstance(error, ProgramError):
+    if isinstance(error, NoTimeError) or not isinstance(error, ProgramError):
         return True
     try:
         film = Film(Recorded(stirred(arrays)))
+        film.recorded.unmoved = True
         told(film)
         film.description()
     except Exception as again:  # author code may raise anything
@@ -48,7 +51,7 @@ def stirred(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     number = np.arange(bodies)
     ways = DRIFT_M * np.stack([np.cos(number), np.sin(number), 0.3 + 0 * number], axis=-1)
     found["pos"] = np.asarray(arrays["pos"]) + (share**2)[:, None, None] * ways
-    for name in [name for name in arrays if name.startswith("law") and name != "law_names"]:
+    for name in [name for name in arrays if name.startswith("law") and not name.startswith("law_")]:
         if name.endswith("_points"):
             drift = np.linspace(0.0, DRIFT_M, len(arrays[name]))[:, None, None]
             found[name] = arrays[name] + drift

@@ -14,6 +14,10 @@ INTERNAL = ("description",)
 """What no author calls."""
 
 
+class NoTimeError(ProgramError):
+    """A span of recorded time that a film reckons ends no later than it begins."""
+
+
 def refusing(kind: Kind) -> Kind:
     """Let the public methods of a class, its parents' too, raise a `ProgramError` where they are given what they cannot use."""
     for name, method in inspect.getmembers(kind, inspect.isfunction):

@@ -15,6 +15,8 @@ from . import ground
 from .laws_shown import Laws
 
 WORLD = "world"
+LEAST_M = 0.02
+"""Points that wait in one place, as all do in a world that stands still, are looked at as if they were so large."""
 GROUND = ("vertices", "faces", "owner", "names")
 """Arrays of the triangles of what stands still."""
 
@@ -40,6 +42,8 @@ class Recorded:
     def __init__(self, arrays: Mapping[str, np.ndarray]) -> None:
         self.asked_of_motion = False
         """Whether somebody asked how anything moves: what then goes wrong on a made-up recording may be that one's fault."""
+        self.unmoved = False
+        """Whether nothing was recorded yet, and nothing moves or happens in it."""
         self.time = np.asarray(arrays["time"], dtype=float)
         """(T,) s, from 0."""
         self._pos, self._quat = np.asarray(arrays["pos"]), np.asarray(arrays["quat"])
@@ -134,19 +138,34 @@ class Recorded:
 
     def index(self, body: str) -> int:
         """Number of a body; a `ProgramError` names the nearest where there is none."""
-        if body not in self.bodies:
-            near = get_close_matches(str(body), self.bodies, n=3) or list(self.bodies[:6])
-            raise ProgramError(f"no body is called {body!r}", "film.py", f"name one of: {', '.join(near) or '(none)'}")
+        if body in self.bodies:
+            return self.bodies.index(body)
+        if body in self._laws:
+            cause = f"{body!r} is no body: it shows the points of a law, which have a middle and neither frame nor box"
+            raise ProgramError(cause, "film.py", f"film.recorded.points({body!r}, times)")
+        known = (*self.bodies, *self._laws.names, *self._laws.shown_by)
+        near = get_close_matches(str(body), known, n=3) or list(known[:6])
+        raise ProgramError(f"no body is called {body!r}", "film.py", f"name one of: {', '.join(near) or '(none)'}")
         return self.bodies.index(body)
 
     def position(self, body: str, at: float | np.ndarray) -> np.ndarray:
-        """Centre of what is seen of a body (the box around its shapes) at some recorded times: (3,), or (N, 3), m."""
+        """Centre of what is seen of a body (the box around its shapes) at some recorded times: (3,), or (N, 3), m.
+
+        Of a law, and of what shows one and is no body, it is the middle of its points.
+        """
         self.asked_of_motion = True
+        if body not in self.bodies and body in self._laws:
+            return self._laws.middle(body, at)
         times, number = np.atleast_1d(np.asarray(at, dtype=float)), self.index(body)
         turn = matrices(self._quat[:, number])
         centre = self._pos[:, number] + turn @ self._middle[number]
         found = np.stack([np.interp(times, self.time, centre[:, axis]) for axis in range(3)], axis=-1)
         return found if np.ndim(at) else found[0]
+
+    def middle(self, name: str, at: float | np.ndarray) -> np.ndarray:
+        """What a camera looks at of a body, a law, or what shows one: its `position`, of a law's the middle of its points."""
+        self.asked_of_motion = True
+        return self._laws.middle(name, at) if name in self._laws else self.position(name, at)
 
     def origin(self, body: str, at: float | np.ndarray) -> np.ndarray:
         """Where the frame of a body lies at some recorded times: (3,), or (N, 3), m."""
@@ -174,6 +193,11 @@ class Recorded:
     def radius(self, *bodies: str) -> float:
         """Half the diagonal of the box around the largest of some bodies, m."""
         return max((float(np.linalg.norm(self._half[self.index(body)])) for body in bodies), default=0.5)
+
+    def reach(self, *names: str) -> float:
+        """The `radius` of the largest of what a camera looks at, m; of a law's points, where they lie furthest apart."""
+        found = (max(self._laws.radius(name), LEAST_M) if name in self._laws else self.radius(name) for name in names)
+        return max(found, default=0.5)
 
     def box(self, body: str) -> tuple[np.ndarray, np.ndarray]:
         """The box around a body's shapes, in the body's own frame, m: its middle (3,) and its half extents (3,), in this order.
@@ -240,9 +264,15 @@ class Recorded:
         """The bodies of many balls that show the points of a law."""
         return self._laws.grains
 
+    @property
+    def shows(self) -> dict[str, str]:
+        """What shows the points of each law, a body or a surface, by the law's name."""
+        return dict(zip(self._laws.names, self._laws.shown_by, strict=False))
+
     def points(self, law: str, at: float | np.ndarray) -> np.ndarray:
         """Where the points of a law are at some recorded times: (P, 3), or (N, P, 3), m; in the order of `law.points`.
 
+        `law` is its name, or that of what shows it, as of `told`.
         So `points("balloon", t)[:, 12]` is the way of one of them. Where there is no such law, a `ProgramError` names those there are.
         """
         self.asked_of_motion = True

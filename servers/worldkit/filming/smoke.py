@@ -102,6 +102,8 @@ class Smoke(PatternedLight):
             )
         end = self.recorded.duration if until is None else float(until)
         most = float(np.max(_varying(rate, np.linspace(start, max(end, start), 200))))
+        if self.recorded.unmoved and self.recorded.asked_of_motion and not (most > 0 and end > start):
+            return  # nothing happens yet in a world that stands still: when it streams is known of the recording
         if not 0 < most * life <= MOST_PUFFS or not end > start:
             raise ProgramError(
                 f"{name!r} would have {most * life:.3g} puffs at once, from {start:g} s to {end:g} s",
@@ -147,6 +149,7 @@ class Smoke(PatternedLight):
             )
 
         self.puffs(name, at, colour=colour)
+        self._puffs[-1][0]["eddies_m"] = float(np.mean(diameter))
 
     def _source(self, name: str, source: Any) -> Callable[[Array], Array]:
         if callable(source):

@@ -61,6 +61,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         with np.load(options.motion, allow_pickle=False) as found:
             arrays = dict(found)
         film = Film(Recorded(arrays))
+        film.recorded.unmoved = options.unmoved
         sys.path.insert(0, str(options.program.parent))
         told = runpy.run_path(program).get("film")
         if not callable(told):

@@ -3,7 +3,7 @@
 Each maker returns a `Viewpoint`. All take the lens: `lens_mm`, the focal length as on a full-frame camera (24 wide, 50 as the
 eye sees, 85 narrow), a number or a pair that it goes through; `focus`, a body's name, a point (x, y, z) or a distance in metres, and
 `aperture`, the f-number (1.4 blurs much, 16 nearly nothing), without which everything is sharp; `shake`, how unsteady the
-hand is (0 to 1); `roll_deg`.
+hand is (0 to 1); `roll_deg`. Where a body's name goes, that of a law does, or of what shows one: its points have a middle.
 """
 
 from collections.abc import Callable, Sequence
@@ -108,7 +108,7 @@ def smoothed(recorded: Recorded, bodies: Sequence[str], times: np.ndarray, lag_s
     total = np.zeros((len(times), 3))
     for offset, weight in zip(offsets * lag_s, weights / weights.sum(), strict=True):
         at = np.clip(times + offset, 0.0, recorded.duration)
-        total += weight * np.mean([recorded.position(body, at) for body in bodies], axis=0)
+        total += weight * np.mean([recorded.middle(body, at) for body in bodies], axis=0)
     return total
 
 
@@ -139,7 +139,7 @@ def _distance(course: Course, names: tuple[str, ...], distance: Range | None, fi
     if distance is not None:
         return between(distance, course.share)
     tangent = np.tan(np.radians(fovy_deg(between(lens, course.share))) / 2)
-    return course.recorded.radius(*names) / (fill * tangent)
+    return course.recorded.reach(*names) / (fill * tangent)
 
 
 def _holding(
@@ -159,7 +159,7 @@ def _holding(
     def needed(times: np.ndarray) -> np.ndarray:
         middle, most = smoothed(recorded, names, times, lag_s), np.zeros(len(times))
         for name in names:
-            apart, radius = recorded.position(name, times) - middle, recorded.radius(name)
+            apart, radius = recorded.middle(name, times) - middle, recorded.reach(name)
             nearer = np.einsum("ni,ni->n", apart, way)
             for axis, half in sides:
                 reach = np.abs(np.einsum("ni,ni->n", apart, axis)) + radius
@@ -297,9 +297,10 @@ def wide(
     def space(recorded: Recorded) -> tuple[np.ndarray, float, np.ndarray]:
         names = bodies or recorded.movers or recorded.bodies
         times = np.linspace(0.0, recorded.duration, 60)
-        points = np.concatenate([recorded.position(name, times) for name in names])
+        where, large = (recorded.middle, recorded.reach) if bodies else (recorded.position, recorded.radius)
+        points = np.concatenate([where(name, times) for name in names])
         low, high = points.min(axis=0), points.max(axis=0)
-        return 0.5 * (low + high), recorded.radius(*names), high - low
+        return 0.5 * (low + high), large(*names), high - low
 
     def eye(course: Course) -> np.ndarray:
         middle, radius, extent = space(course.recorded)
