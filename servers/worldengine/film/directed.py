@@ -49,6 +49,9 @@ class Screening:
         renderer: the wanted one, in place of that of `WORLDKIT_RENDERER`.
     """
 
+    _last_seen: "tuple[int, Surfaces] | None" = None
+    """A frame, and what it shows, where nothing was set up since that was looked at."""
+
     def __init__(
         self,
         world: "Path",
@@ -147,7 +150,7 @@ class Screening:
         if (self.film.puffs or self.film.clouds) and not self.puffless:
             film, treatment = self.film, self.film.treatments.at(frame / self.fps)
             try:
-                shown = self.surfaces(frame)
+                shown = self._looked_at(frame)
             except Exception as error:  # drivers fail in ways of their own, and a film without mist is better than none
                 self.puffless = f"{type(error).__name__}: {error}"[:300]
                 return letter(image, frame / self.fps, self.film.captions, *self.words(frame))
@@ -167,7 +170,13 @@ class Screening:
             RuntimeError: the graphics driver refuses; other exceptions of its own, too.
         """
         data = self._moment(frame + self._middle)
-        return self._looking().surfaces(data, self._camera, coarser)
+        found = self._looking().surfaces(data, self._camera, coarser)
+        self._last_seen = (frame, found) if coarser == 1 else None
+        return found
+
+    def _looked_at(self, frame: int) -> "Surfaces":
+        """The `surfaces` of a frame; those that were found last where nothing else was set up since."""
+        return self._last_seen[1] if self._last_seen and self._last_seen[0] == frame else self.surfaces(frame)
 
     def placed(self, frame: int) -> "tuple[np.ndarray, View]":
         """Where each thing of `surfaces` is (N, 3, 4), and the view, without drawing anything."""
@@ -265,6 +274,7 @@ class Screening:
         import numpy as np
 
         self.tick()
+        self._last_seen = None
         film = self.film
         shot, low, high, part = self._between(at)
         self._shown = low if part < 0.5 else high

@@ -15,6 +15,8 @@ from . import gl, swarms
 from .eye import View
 from .far_first import far_first
 from .finish import linear
+from .lighting import TOLD
+from .near_air import Reach
 from .shader_variants import Features, Variants, features, glossy
 from .shadows import ShadowMap
 from .soft import Soft
@@ -60,7 +62,7 @@ class Painter:
         self.things, self.soft, self.supplies = things, Soft(model), Supplies(model, height)
         self._walls, self._wall_rows = walls, wall_rows
         self._rows = things.rows
-        self._variants = Variants()
+        self._variants, self._reach = Variants(), Reach(things)
         self._prepared: set[Features] = set()
         self._buffer = GL.glGenBuffers(1)
         self._rows_texture = GL.glGenTextures(1)
@@ -185,6 +187,8 @@ class Painter:
         """Set what materials are drawn with from now on: uniforms, textures (unit, handle) by name, and the shadow map."""
         self._prepared.clear()
         self._uniforms, self._textures, self._shadow = uniforms, textures, shadow
+        self._hazed = self._reach.hazed(self._rows, self.soft.balls, np.asarray(uniforms["eye"], dtype=float))
+        self._hazed &= self.setting == TOLD
 
     def _shade(self, batch: Batch, shape: gl.Shape, count: int, *, simple: bool = False, mirror: bool = False) -> None:
         """Draw `count` things from the batch's first with its own variant of the surface shader."""
@@ -193,6 +197,7 @@ class Painter:
         wanted = features(
             batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind, panels=panels,
             lamps=bool(self._uniforms["lamp_count"]), gobo="gobo" in self._textures, coloured=shape.coloured,
+            hazed=bool(self._hazed[batch.first : batch.first + count].any()),
         )  # fmt: skip
         program = self._variants.get(wanted).use()
         if wanted not in self._prepared:

@@ -43,6 +43,8 @@ class Features:
     """Light comes through it, so many hundredths."""
     simple: bool
     """It omits relief, contact shadows and fine glints, as mirror images do."""
+    hazed: bool
+    """Air hides what of it is far."""
 
 
 def features(
@@ -57,6 +59,7 @@ def features(
     lamps: bool,
     gobo: bool,
     coloured: bool,
+    hazed: bool,
 ) -> Features:
     """The features that a batch needs."""
     look, kind = batch.finish.look, batch.shape[0]
@@ -83,6 +86,7 @@ def features(
         coloured=coloured,
         thin=round(100 * look.thin),
         simple=simple,
+        hazed=hazed,
     )
 
 

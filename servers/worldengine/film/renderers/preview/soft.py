@@ -53,11 +53,13 @@ def _row(
 
 
 class Soft:
-    """Draws tendons as capsules, flexes and skins as triangles; `rows` has their rows in the order of `draws`."""
+    """Draws tendons as capsules, flexes and skins as triangles; `rows` has their rows in the order of `draws`, `balls` what is around each."""
 
     def __init__(self, model: mujoco.MjModel):
         self._shapes = SoftShapes(model)
         self.rows = np.zeros((0, FLOATS), dtype=np.float32)
+        self.balls = np.zeros((0, 4))
+        """Middle and radius, m, the radius infinite where nobody looked."""
         self._draws: list[tuple[gl.Shape | None, int, int, Finish]] = []
         self._triangles: dict[tuple[str, int, int, int, int], gl.Shape] = {}
         self._finishes = {i: of_material(model, i) for i in range(model.nmat)} if self._shapes.any else {}
@@ -87,13 +89,16 @@ class Soft:
         if not self._shapes.any:
             return
         rows: list[np.ndarray] = []
+        balls: list[np.ndarray] = []
         self._draws = []
         strands, patches = self._shapes.read(data)
         for patch in patches:
             finish, rgba = self._finish(patch.material, patch.rgba)
             pictured = patch.uv is not None and finish.texture >= 0 and not finish.look.around
             self._draws.append((self._shape(patch), len(rows), 1, finish))
-            half, middle = float(np.sort(np.ptp(patch.points, axis=0))[1]) / 2, None
+            low, high = patch.points.min(axis=0), patch.points.max(axis=0)
+            half, middle = float(np.sort(high - low)[1]) / 2, None
+            balls.append(np.append((low + high) / 2, np.linalg.norm(high - low) / 2))
             if patch.key[0] == "flex" and self._shapes.is_closed(patch.key[1]):
                 half, middle = (BEAD_M, None) if patch.key[2] else self._shapes.around(patch.key[1])
             tint = rgba if patch.colours is None else np.ones(4)
@@ -114,6 +119,8 @@ class Soft:
             self._draws.append((None, len(rows), len(group), finish))
             rows.extend(group)
         self.rows = np.array(rows, dtype=np.float32).reshape(-1, FLOATS)
+        self.balls = np.full((len(rows), 4), np.inf)
+        self.balls[: len(balls)] = np.reshape(balls, (-1, 4))
 
     def draws(self) -> Iterator[tuple[gl.Shape | None, int, int, Finish]]:
         """Shape (None: a capsule), first row, count and finish of each group."""

@@ -1,4 +1,4 @@
-// Bounds of the blocks within `reach` of each block: what a soft shadow there can depend on.
+// Bounds of the blocks within `reach` of each block: what a soft shadow, or a blurred pixel, there can depend on.
 uniform sampler2D blocks;
 uniform int reach;
 out vec2 bounds;

@@ -455,7 +455,7 @@ void main() {
 #if GROUND && (SETTING == 0 || SETTING == 3)
     c = mix(c, sky(normalize(vec3(-v.xy, 0.0)), false), smoothstep(fade.z, fade.w, length(world.xy - fade.xy)));
 #endif
-#if SETTING == 4
+#if HAZED
     c = mix(c, sky(normalize(vec3(-v.xy, 0.02)), false), 0.95 * (1.0 - exp(-max(range - 12.0, 0.0) / haze_m)));
 #endif
     c = fogged(c, eye, world);

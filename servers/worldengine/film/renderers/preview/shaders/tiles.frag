@@ -1,4 +1,4 @@
-// Nearest and farthest depth of each 16 x 16 block of the shadow map.
+// Least and greatest depth of each block of a map of depths, 16 x 16 texels.
 uniform sampler2D shadow_depth;
 uniform int block;  // a uniform, so that compilers do not unroll the loops
 out vec2 bounds;
