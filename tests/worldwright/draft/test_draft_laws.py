@@ -1,5 +1,7 @@
 """Laws of the author's own in a draft: the class is found in its file, given what the plan knows, and no body stands for what it moves."""
 
+import ast
+import builtins
 from pathlib import Path
 
 import pytest
@@ -59,6 +61,25 @@ def test_a_law_is_made_of_the_plans_constants_and_handed_over(drafted):
     assert 'bodies.box(spec, "cord"' not in made.source.replace("\n        ", "")
     assert len(made.open_places) == 1 and "moved_shapes.surface" in made.open_places[0]
     assert "# AUTHOR: the law rubber: add what it moves" in made.source
+
+
+CHECKOUT = Path(__file__).parents[3]
+PLANS = [*CHECKOUT.glob("examples/*/plan.md"), *CHECKOUT.glob("skills/*/references/*/plan.md")]
+
+
+@pytest.mark.parametrize("path", sorted(PLANS), ids=lambda path: path.parent.name)
+def test_every_name_that_a_draft_uses_is_one_that_it_defines(path):
+    layout = resolve(path, write=False)
+    if not layout.ok:
+        pytest.skip("its models are not installed here")
+    source = assembly.draft(read_plan(path).plan, Scene(objects=layout.objects)).source
+    parts = [*ast.walk(ast.parse(source))]
+    names = [part for part in parts if isinstance(part, ast.Name)]
+    bound = {name.id for name in names if isinstance(name.ctx, ast.Store)} | {*dir(builtins)}
+    bound |= {part.name for part in parts if isinstance(part, ast.FunctionDef)}
+    bound |= {part.arg for part in parts if isinstance(part, ast.arg)}
+    bound |= {(part.asname or part.name).split(".")[0] for part in parts if isinstance(part, ast.alias)}
+    assert {name.id for name in names} <= bound
 
 
 def test_a_constant_that_a_solver_reads_too_is_defined_for_the_law_that_takes_it(drafted, tmp_path):
