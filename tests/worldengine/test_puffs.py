@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from worldengine.film import directed, puffs, stand_ins, thick_puffs
 from worldengine.film.renderers.preview.eye import View
@@ -123,3 +124,11 @@ def test_thick_puffs_are_told_as_large_as_a_mover_and_thin_ones_are_not() -> Non
         assert ("as large as ball" in found.get("like", "")) == told, (opaque, len(places))
         film = SimpleNamespace(things=(), puffs=(found,), arrays=arrays)
         assert stand_ins.words(film, 0) == ("drawn: mist" if told else "")
+
+
+@pytest.mark.parametrize("eddies_m", [-1.0, np.nan, np.inf])
+def test_eddies_of_no_size_are_refused(eddies_m: float) -> None:
+    one, arrays = cloud([(0, 2, 0)], 0.1, 0.5)
+    assert puffs.check({"puffs": [one | {"eddies_m": 0.1}]}, arrays, 1)[0]["eddies_m"] == 0.1
+    with pytest.raises(ValueError, match="none that can be drawn"):
+        puffs.check({"puffs": [one | {"eddies_m": eddies_m}]}, arrays, 1)

@@ -65,3 +65,16 @@ def test_the_hundred_and_first_is_refused_in_words() -> None:
         film.emit(f"mist {number}", (0, 0, 1))
     with pytest.raises(ProgramError, match="'mist 100' is one too many"):
         film.emit("mist 100", (0, 0, 1))
+
+
+def test_puffs_are_torn_by_eddies_of_one_size_but_for_those_that_are_told_to_stay_even() -> None:
+    film = Film(Recorded.rehearsal({"ball": np.zeros((10, 3))}, duration=1.0))
+
+    def at(times):
+        return np.zeros((len(times), 2, 3)), 0.1 + 0.1 * times[:, None] * np.ones(2), np.full((len(times), 2), 0.3)
+
+    film.puffs("steam", at)
+    film.puffs("glow", at, even=True)
+    film.emit("mist", (0.0, 0.0, 1.0))
+    film.shot(still((0, -3, 1), (0, 0, 1)), until=1.0)
+    assert [one["eddies_m"] for one in film.description()[0]["puffs"]] == [0.125, 0.0, 0.0625]

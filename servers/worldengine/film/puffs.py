@@ -42,7 +42,7 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
         raise ValueError(f"a film has at most {bounds.MOST_EMITTERS} kinds of puffs, not {len(told['puffs'])}")
     for one in told.get("puffs", ()):
         row: dict[str, Any] = {"name": str(one["name"])[:60], "rgb": tuple(float(v) for v in one["rgb"])}
-        row["eddies_m"] = min(max(float(one.get("eddies_m", 0.0)), 0.0), bounds.FAR_M)
+        row["eddies_m"] = float(one.get("eddies_m", 0.0))
         row |= {what: str(one[what]) for what in ("places", "wide", "opaque")}
         places, wide, opaque = (arrays[str(one[what])] for what in ("places", "wide", "opaque"))
         good = (
@@ -52,6 +52,7 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
             and places.shape[1] <= bounds.MOST_PUFFS
         )
         good = good and wide.shape == opaque.shape == places.shape[:2] and wide.size <= bounds.MOST_PUFF_NUMBERS
+        good = good and 0 <= row["eddies_m"] <= bounds.FAR_M
         if not good or len(row["rgb"]) != 3 or not all(np.isfinite(a).all() for a in (places, wide, opaque)):
             raise ValueError(f"the puffs {row['name']!r} are none that can be drawn")
         found.append(row)

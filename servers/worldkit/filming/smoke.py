@@ -26,8 +26,10 @@ class Smoke(PatternedLight):
         super().__init__(recorded)
         self._puffs: list[tuple[dict[str, Any], Callable[[Array], Any], int]] = []
 
-    def puffs(self, name: str, at: Callable[[Array], Any], *, colour: str = "#ffffff") -> None:
-        """Soft round puffs without an edge, lit by the key light and shading each other; what stands before them hides them.
+    def puffs(self, name: str, at: Callable[[Array], Any], *, colour: str = "#ffffff", even: bool = False) -> None:
+        """Soft puffs without an edge, lit by the key light and shading each other; what stands before them hides them.
+
+        Up to 8,000 are torn to wisps, each in a way of its own, as vapour is; `even` leaves them round and smooth.
 
         `at(times)` gives for recorded times (F,) places (F, P, 3), m, diameters (F, P), m, 0: not drawn, and how much of what is
         behind its middle each hides, (F, P), 0 to 1. Asked once, when the film is whole. 20,000 at once cost little.
@@ -45,7 +47,7 @@ class Smoke(PatternedLight):
                 "film.py",
                 "let one function give the places of several",
             )
-        told = {"name": name, "rgb": drawn_only.rgb(colour)}
+        told = {"name": name, "rgb": drawn_only.rgb(colour)} | ({"even": True} if even else {})
         self._puffs.append((told, at, line()))
 
     def emit(
@@ -149,7 +151,6 @@ class Smoke(PatternedLight):
             )
 
         self.puffs(name, at, colour=colour)
-        self._puffs[-1][0]["eddies_m"] = float(np.mean(diameter))
 
     def _source(self, name: str, source: Any) -> Callable[[Array], Array]:
         if callable(source):
@@ -220,7 +221,10 @@ class Smoke(PatternedLight):
             names = {what: f"puffs{number}_{what}" for what in ("places", "wide", "opaque")}
             for (_, key), values in zip(names.items(), (places, wide, opaque), strict=True):
                 arrays[key] = values.astype("f4")
-            found.append(told | names)
+            # Of one size in all frames, or all would tremble; in steps, so that another shot leaves those that there are as they were.
+            even = told.get("even") or not wide.any()
+            eddies = 0.0 if even else float(2.0 ** np.rint(np.log2(wide[wide > 0].mean())))
+            found.append({what: told[what] for what in ("name", "rgb")} | {"eddies_m": eddies} | names)
         return found
 
 
