@@ -1,7 +1,7 @@
 """Liquids, sand, snow and soft solids as an author's law: what flows, heaps up, springs back or keeps a dent, and pushes bodies.
 
 `material_points` is the law of what flows, `liquids`, `sands` and `snows` what the matter is, `first_places` where it begins and is poured,
-`transfer` the grid; `moulded` is that of `solids`, on `lattices` (`solid_kernel`); `wall_distance`, `wall_cells` and `touched_geoms` are
+`transfer` the grid; `moulded` is that of `soft_solids`, on `lattices` (`solid_kernel`); `wall_distance`, `wall_cells` and `touched_geoms` are
 the walls of both, `body_motion` how these move, `beforehand` what is refused; `membranes` is a slack skin with gas inside. A law of an
 author's own derives from `Matter` or `Moulded`, in a file beside the program.
 """
@@ -13,7 +13,7 @@ from .membranes import Membrane
 from .moulded import Moulded
 from .sands import Sand
 from .snows import Snow
-from .solids import Solid, clay, foam
+from .soft_solids import Solid, clay, foam
 
 __all__ = [
     "Liquid", "Matter", "Membrane", "Moulded", "Sand", "Snow", "Solid", "Source", "block", "clay", "column", "foam", "within",

@@ -18,7 +18,7 @@ from .membranes import Membrane
 from .moulded import Moulded
 from .sands import Sand
 from .snows import Snow
-from .solids import clay, foam
+from .soft_solids import clay, foam
 
 
 def compile_all() -> None:

@@ -21,8 +21,8 @@ from ..sculpt.signed import Shape
 from .beforehand import MOST_POINTS, check_positive, check_work
 from .body_motion import BodyMotion
 from .lattices import filled, ridden
+from .soft_solids import Solid
 from .solid_kernel import moved, pulled, touched
-from .solids import Solid
 from .touched_geoms import Geoms
 from .transfer import MOST_PLANES
 

@@ -37,8 +37,8 @@ NEAREST = {
     "A magnet draws a steel nut across a desk": {"magnet-and-ball"},
     "A magnet falls through a copper pipe": {"copper-tube"},
     "A sponge is squeezed tightly, compressing the sponge": {"rubber-band"},
-    "Dough is kneaded by a wooden board": {"rubber-band"},
-    "A lump of clay is dented by a thumb": {"rubber-band"},
+    "Dough is kneaded by a wooden board": {"rubber-band", "ball-on-clay"},
+    "A lump of clay is dented by a thumb": {"rubber-band", "ball-on-clay"},
     "A spring is compressed and released": {"spring-toy-launches"},
     "A heated ball no longer fits through a ring": {"ball-and-ring"},
 }
