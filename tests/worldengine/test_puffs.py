@@ -123,3 +123,16 @@ def test_thick_puffs_are_told_as_large_as_a_mover_and_thin_ones_are_not() -> Non
         assert ("as large as ball" in found.get("like", "")) == told, (opaque, len(places))
         film = SimpleNamespace(things=(), puffs=(found,), arrays=arrays)
         assert stand_ins.words(film, 0) == ("drawn: mist" if told else "")
+
+
+def test_beside_them_a_picture_of_every_shade_stays_as_it_is_and_is_not_written_into() -> None:
+    axes = np.stack([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]], axis=1)
+    shown = SimpleNamespace(view=View(VIEW.eye, axes, VIEW.tangents), depth=np.full((HEIGHT, WIDTH), 9.0, np.float32))
+    before = np.resize(np.arange(256, dtype=np.uint8), (HEIGHT, WIDTH, 3))
+    before.flags.writeable = False  # as a frame is that another process drew
+    row, arrays = cloud([(-0.5, 2, 0), (0.4, 3, 0.3)], 0.3, 0.4)
+    after = puffs.over(before, arrays, (row,), 0, shown, SUN)
+    changed = (after != before).any(axis=2)
+    assert 200 < changed.sum() < HEIGHT * WIDTH / 3 and changed[:, 90:].any() and changed[:, :60].any()
+    light = (before.astype(np.float32) / 255.0) ** 2.2
+    assert np.array_equal(np.rint(255 * light ** (1 / 2.2)).astype(np.uint8), before), "what is raised comes back"
