@@ -132,3 +132,16 @@ def test_eddies_of_no_size_are_refused(eddies_m: float) -> None:
     assert puffs.check({"puffs": [one | {"eddies_m": 0.1}]}, arrays, 1)[0]["eddies_m"] == 0.1
     with pytest.raises(ValueError, match="none that can be drawn"):
         puffs.check({"puffs": [one | {"eddies_m": eddies_m}]}, arrays, 1)
+
+
+def test_beside_them_a_picture_of_every_shade_stays_as_it_is_and_is_not_written_into() -> None:
+    axes = np.stack([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]], axis=1)
+    shown = SimpleNamespace(view=View(VIEW.eye, axes, VIEW.tangents), depth=np.full((HEIGHT, WIDTH), 9.0, np.float32))
+    before = np.resize(np.arange(256, dtype=np.uint8), (HEIGHT, WIDTH, 3))
+    before.flags.writeable = False  # as a frame is that another process drew
+    row, arrays = cloud([(-0.5, 2, 0), (0.4, 3, 0.3)], 0.3, 0.4)
+    after = puffs.over(before, arrays, (row,), 0, shown, SUN)
+    changed = (after != before).any(axis=2)
+    assert 200 < changed.sum() < HEIGHT * WIDTH / 3 and changed[:, 90:].any() and changed[:, :60].any()
+    light = (before.astype(np.float32) / 255.0) ** 2.2
+    assert np.array_equal(np.rint(255 * light ** (1 / 2.2)).astype(np.uint8), before), "what is raised comes back"

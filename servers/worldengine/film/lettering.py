@@ -82,6 +82,12 @@ def _write(
 
     mask = np.zeros(image.shape[:2], np.uint8)
     cv2.putText(mask, text, at, 255, _font(), size, weight)
+    x, y, wide, high = cv2.boundingRect(mask)
+    # All but the letters and their shadow, which reaches a third of their size, stays as it is.
+    part = slice(max(y - size, 0), y + high + size), slice(max(x - size, 0), x + wide + size)
+    image, mask = image[part], mask[part]
+    if not wide:
+        return
     shade = cv2.GaussianBlur(mask, (0, 0), max(size * 0.12, 0.8)).astype(np.float32) / 255 * 0.75 * strength
     letters = mask.astype(np.float32) / 255 * strength
     light = image.astype(np.float32) * (1 - shade[..., None])
