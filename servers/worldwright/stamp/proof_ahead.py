@@ -17,6 +17,7 @@ from ..model.evidence.run import Run
 from . import audited, private, repeats, trials_again
 from .proof import Proved, prove
 from .state import State
+from .steps import one
 from .strip import strip
 from .taken import take
 
@@ -26,6 +27,8 @@ LONG_S = 6.0
 """A physics pass that took less is proved while acceptance is waited for."""
 LOOK_S = 5.0
 """How often it looks whether what it proves is still there, s."""
+MADE = "made-ahead"
+"""Beside a proof that has come to its end; acceptance removes both."""
 SWITCH, OFF = "WORLDWRIGHT_BESIDE", "0"
 """The variable that keeps a machine from doing anything unasked, and how."""
 
@@ -42,10 +45,14 @@ def begin(run: Run) -> str:
     repeats_too = bool(audited.why_causes(state)) and audited.standing(state, state.causes) in ("absent", "stale")
     if os.environ.get(SWITCH) == OFF or not (long(state) or repeats_too) or state.key is None:
         return ""
+    if one(state, "accept").holds:
+        return ""
     made = ["the repetitions that its causes ask for"] if repeats_too else []
     made += [f"the proof run, about {long(state):.0f} s"] if long(state) else []
     with suppress(WorldwrightError, OSError):  # it only saves time: acceptance proves in any case
         work = private.proofs(run, state.key.key)
+        if (work / MADE).is_file() and not repeats_too:
+            return ""
         handle = os.open(work, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
         try:
             if try_lock.taken(handle):
@@ -93,6 +100,7 @@ def finish(run: Run) -> bool:
     while trials_again.before_signing(State(run), proved, work, LOOK_S) is None:
         if _changed(run, state):
             return False
+    (work / MADE).touch()
     return True
 
 

@@ -78,8 +78,10 @@ def test_acceptance_finds_it(measured: Run, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(audited, "robust_beside", lambda _: "")  # nothing goes on after the test
     monkeypatch.setattr(proof_ahead, "LONG_S", 0.0)
     proof_beside.main(str(measured.folder))
+    assert proof_ahead.begin(measured) == ""
     answer = stamp.accept(str(measured.folder), timeout_s=60)
     assert answer.ok and answer.proof_earlier
+    assert proof_ahead.begin(measured) == "", "what is accepted is proved"
 
 
 def test_whoever_waits_for_it_is_told_how_far_it_is_and_what_is_beside_it(
