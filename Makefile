@@ -3,6 +3,8 @@ PYTHON ?= python3
 BIN := .venv/bin
 JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
+# What is compiled is kept, whatever the shell says: else each worker rewrites and compiles every test file at each run.
+export PYTHONDONTWRITEBYTECODE :=
 # Relative: pip reads a list of files here, and would cut a path at its blanks.
 export PIP_CONSTRAINT := .ci/constraints.txt
 PYTEST = $(BIN)/python -m pytest $(if $(REPORT),--junit-xml="$(REPORT)")

@@ -222,8 +222,9 @@ def test_no_picture_or_recording_lies_elsewhere_than_where_it_is_used():
 def test_no_python_that_we_start_imports_from_where_it_is_started():
     """`-c` and `-m` put the working folder first: one that agents write, such as a run's, would bring its own `mujoco`."""
     found, checked = [], 0
-    for path in SERVERS.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    texts = ((path, path.read_text(encoding="utf-8")) for path in SERVERS.rglob("*.py"))
+    for path, text in ((path, text) for path, text in texts if "executable" in text):
+        for node in ast.walk(ast.parse(text)):
             if isinstance(node, ast.List) and node.elts and ast.unparse(node.elts[0]) == "sys.executable":
                 words = {word.value for word in node.elts if isinstance(word, ast.Constant)}
                 checked += 1

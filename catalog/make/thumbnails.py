@@ -9,14 +9,15 @@ SUPERSAMPLE = 2
 
 def draw(key: str, catalog: Path) -> bytes:
     """PNG of one asset of a catalog folder in the studio, three-quarter view."""
-    os.environ.setdefault("MUJOCO_GL", "egl")
     os.environ["WORLDWRIGHT_CATALOG"] = str(catalog)
     import cv2
     import mujoco
 
+    from worldengine.film import graphics_library
     from worldengine.film.drawn_frames import Frames
     from worldkit import assets, cameras, scene
 
+    graphics_library.choose_headless()  # the making of a kit has imported MuJoCo before
     spec = scene.new(key, time_step=0.002, setting="studio")
     height = assets.find(key).metric_height
     assets.add(spec, key, name=key, height=height, pos=(0, 0, height / 2), fixed=True)

@@ -152,6 +152,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--minutes", type=float, default=5.0, help="time for drawing (final)")
     parser.add_argument("--at", type=float, action="append", help="seconds of the film, or of the recording (frame)")
     parser.add_argument("--shots", action="store_true", help="three moments of every shot of the film (frame)")
+    parser.add_argument("--moving", action="store_true", help="the whole film, small and in few frames (frame)")
     parser.add_argument(
         "--seen",
         action="append",
@@ -160,7 +161,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
         help="one of several pictures: still|video:WIDTHxHEIGHT:SECONDS:CAMERA, the camera `film` for the film's own (frame)",
     )
     parser.add_argument(
-        "--within", type=float, default=math.inf, help="no further picture is begun after so many s (--seen)"
+        "--within", type=float, default=math.inf, help="no further picture is begun after so many s (--seen, --moving)"
     )
     parser.add_argument("--samples", type=float, help="paths a pixel, by the final pass's renderer (frame)")
     parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame, sheet)")

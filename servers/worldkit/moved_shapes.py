@@ -43,7 +43,7 @@ def surface(spec: "mujoco.MjSpec", name: str, points: Any, triangles: Any, look:
     flex.vert, flex.elem = places.ravel().tolist(), corners.ravel().tolist()
     flex.radius, flex.contype, flex.conaffinity = THIN_M, 0, 0
     if look is not None:
-        flex.material = [materials.add(spec, look)]
+        flex.material = [materials.add(spec, look.replace(" ", "_"))]  # MJCF lists them with spaces between
     return flex
 
 

@@ -18,7 +18,7 @@ def add_asset(
     file: Annotated[
         Path,
         Field(
-            description="GLB, OBJ, STL, PLY, OFF, DAE, USD; a folder or .zip with one; or the key of a library's offer."
+            description="GLB, glTF, OBJ, STL, PLY, OFF, DAE, 3MF, USD; a folder or .zip with one; or the key of a library's offer."
         ),
     ],
     key: Annotated[

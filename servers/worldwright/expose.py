@@ -11,6 +11,7 @@ on to its model.
 
 import contextlib
 import functools
+import gc
 import importlib
 import inspect
 import logging
@@ -317,7 +318,10 @@ def _refusal(error: WorldwrightError) -> Any:
 
 def serve(name: str, transport: str = "stdio", host: str = "127.0.0.1", port: int = 8000) -> None:
     """Run one server until its client leaves."""
+    gc.disable()  # what is loaded stays: looking for garbage in it takes a sixth of the start, and finds none
     server = build_server(name)
+    gc.freeze()
+    gc.enable()
     if transport == "http":
         server.run("streamable-http", host=host, port=port)
         return

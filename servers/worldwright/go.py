@@ -50,6 +50,7 @@ class Accepting(Going):
     """A walk up to the stamp, which describes and reviews by measurement."""
 
     groups = (*GROUPS, ("describe",), ("review",), ("accept",))
+    attended = False
 
     def describe(self) -> str:
         """Describe by counted pixels, in place of somebody who looks."""

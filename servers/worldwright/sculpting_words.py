@@ -24,7 +24,7 @@ PARTS = (
     ("Of one shape", "bend twist rough"),
     ("Of several", "union difference intersection linear radial repeat"),
     ("Where things go", "along skin share_along"),
-    ("Into the world", "Part add assemble from_file dress made leaf"),
+    ("Into the world", "Part add assemble from_file dress made leaf hand hand_parts"),
 )
 SOLIDS = "box ball cylinder pipe torus lathe vessel turned slab loft hull sweep wire ring curve together around"
 MASKS = "gradient over plain step within stripes spots net mottled noise label dial"

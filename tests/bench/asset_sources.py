@@ -94,7 +94,7 @@ def taking_in(folder: Path) -> Figure:
     from worldkit.intake import taken_in
     from worldkit.intake.cutting import CLOSED, CONCAVITY, CORNERS, MOST_HULLS, SEED
 
-    along = np.linspace(0, 1, FACES // 500)
+    along = np.linspace(0, 1, FACES // 1000)
     outer = np.column_stack([0.05 + 0.03 * along + 0.001 * np.sin(40 * along), 0.06 * along])
     inner = np.column_stack([0.042 + 0.03 * along[::-1], 0.01 + 0.05 * along[::-1]])
     mesh = trimesh.creation.revolve(np.concatenate([[(0, 0)], outer, inner, [(0, 0.01)]]), sections=250)

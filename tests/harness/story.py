@@ -47,7 +47,8 @@ def story(
         return turn
 
     def stage(name: str) -> list[Turn | Lazy]:
-        return [[tool("stage", "start", run=RUN, stage=name)], [tool("stage", "wait", run=RUN, timeout_s=40)]]
+        # A call returns within 45 s, and a drafted film with the plan's cameras takes longer on a busy machine.
+        return [[tool("stage", "start", run=RUN, stage=name)], *[[tool("stage", "wait", run=RUN, timeout_s=40)]] * 4]
 
     lint = [tool("lint", "check_program", files=[f"{RUN}/simulation.py"], plan=f"{RUN}/plan.md")]
     describe = [
@@ -55,7 +56,7 @@ def story(
         [
             tool(
                 "stamp", "describe", run=RUN,
-                description={"author": "world-visual", "summary": "a red ball above a pale floor", "cameras": {"overview": "a ball", "side": "a ball"}, "objects": {"ball": "red"},
+                description={"author": "world-visual", "summary": "a red ball above a pale floor", "cameras": {"overview": "a ball", "side": "a ball", "film": "a ball"}, "objects": {"ball": "red"},
                              "named": [{"seen": "a red ball", "camera": "overview"}], "event": "it falls", "belief": 8,
                              "betrays": ["an empty floor", "a flat sky", "no dust"]},
             )

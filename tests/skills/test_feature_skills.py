@@ -1,6 +1,7 @@
 """What feature skills say to write into a plan is a plan: rows validate, expectations and looks exist."""
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -47,12 +48,17 @@ def test_what_a_skill_puts_into_a_plan_belongs_there(what, text):
                     EXPECTATIONS.find(name).Given.model_validate(arguments)
 
 
+@cache
+def sources() -> str:
+    """All that the suite's own modules say."""
+    return "".join(path.read_text(encoding="utf-8") for path in (REPO / "servers").rglob("*.py"))
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(REPO / "skills")))
 def test_every_rule_a_page_names_exists(page):
     text = page.read_text(encoding="utf-8")
-    sources = "".join(p.read_text(encoding="utf-8") for p in (REPO / "servers").rglob("*.py"))
     for code in re.findall(r"\bW[A-Z]\d{3}\b", text):
-        assert f'"{code}"' in sources, code
+        assert f'"{code}"' in sources(), code
 
 
 def test_the_looks_of_the_materials_skill_exist():

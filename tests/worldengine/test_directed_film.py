@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, lay_film, record
-from worldengine.film import chosen_frames, described, motion_facts, passes, streaks
+from worldengine.film import behind_walls, chosen_frames, described, motion_facts, passes, streaks
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening
 from worldengine.film.dressed import DressedReplay, dress
@@ -124,6 +124,30 @@ def test_every_shot_is_seen_on_one_sheet_and_several_moments_in_one_call(made, t
     )
     assert [row["film_s"] for row in chosen["moments"]] == pytest.approx([7 / 24, 2 / 24])
     assert {"frame.png", "frame-2.png"} <= {path.name for path in tmp_path.iterdir()}
+
+
+def test_a_mover_that_the_key_light_does_not_reach_for_a_wall_is_told_with_the_way_that_is_free(made):
+    def tell(film, wall=(0.5, 0.1, 4.0), pos=(0.0, -0.8, 2.0)):
+        two_shots(film)
+        film.light(azimuth_deg=-90, elevation_deg=20, strength=1.0)
+        film.draw("fence", "box", wall, pos=pos)
+
+    def told(film):
+        model = dress(made.folder / "world.mjz", film)
+        return behind_walls.told(model, made.recording, film, 24, ("first", "second"))
+
+    said = told(made.film(tell))
+    assert len(said) == 2 and said[0].startswith("shot 1: the key light (azimuth -90, elevation 20 degrees)")
+    assert "'first', behind 'fence'" in said[0] and not any("'second'" in line for line in said)
+    free = float(said[0].split("azimuth_deg=")[1].rstrip(")"))
+    assert 10 <= abs(free + 90) <= 40
+
+    def turned(film):
+        tell(film)
+        film.light(azimuth_deg=free)
+
+    assert told(made.film(turned)) == []
+    assert told(made.film(lambda film: tell(film, wall=(0.1, 0.1, 4.0)))) == []  # a post leaves some of it in the light
 
 
 @pytest.mark.gl
@@ -241,12 +265,43 @@ def test_the_words_of_a_plate_are_a_flat_sheet_that_goes_with_its_body(made):
     assert (model.mat(sheet.matid[0]).texid >= 0).any()
 
 
+def test_the_words_of_a_plate_are_told_as_captions_are_whatever_it_is_called(made):
+    film = made.film(
+        lambda f: (
+            looking(f),
+            f.label("SLID 0.60 M", (0, 0, 0.5), name="post"),
+            f.caption("a fall", seconds=0.1, place="top"),
+        )
+    )
+    assert film.told(24)["captions"] == ["a fall", "SLID 0.60 M"]
+    with pytest.raises(FilmError, match="no list of words"):
+        made.film(looking, lambda facts, arrays: facts.update(labels=[3]))
+
+
+def test_a_lamp_with_the_name_of_a_drawn_thing_is_told(made):
+    def tell(film):
+        looking(film)
+        film.draw("cup", "sphere", 0.05, pos=(1, 0, 0))
+        film.lamp("glow", (1, 0, 1), radius=0.02)
+        film.lamp("wide", (1, 0, 2))
+
+    assert made.film(tell).drawn_only() == ["cup", "glow", "wide (a lamp)"]
+    other = made.film(tell, lambda facts, arrays: facts["lamps"][1].update(name="cup"))
+    assert other.drawn_only() == ["cup", "glow", "cup (a lamp)"]
+
+
 def test_a_skin_takes_the_place_of_its_body_if_it_has_its_size(made):
     film = made.film(lambda f: (looking(f), f.mesh("ox", 0.1 * CUBE, FACES, to="first", instead=True)))
     model = dress(made.folder / "world.mjz", film)
     assert model.geom_group[model.geom("first").id] > 2
     assert model.geom_group[model.geom("second").id] <= 2
     assert film.drawn_only() == ["ox (skin over first)"]
+    longer = made.film(
+        lambda f: (looking(f), f.mesh("ox", (0.24, 0.1, 0.1) * CUBE + (0.08, 0, 0), FACES, to="first", instead=True))
+    )
+    assert longer.drawn_only() == ["ox (skin over first, 2.4 times as long, up to 0.22 m off its sides)"]
+    ahead = made.film(lambda f: (looking(f), f.mesh("ox", 0.1 * CUBE + (0.05, 0, 0), FACES, to="first", instead=True)))
+    assert ahead.drawn_only() == ["ox (skin over first, up to 0.05 m off its sides)"]
     for size, pos in ((0.01, (0, 0, 0)), (1.0, (0, 0, 0)), (0.1, (0.3, 0, 0))):
         wrong = made.film(
             lambda f, size=size, pos=pos: (
@@ -410,6 +465,39 @@ def test_what_a_drawn_thing_hides_is_told(made):
 
     assert behind(-0.5) == ["first behind fence"]
     assert behind(0.5) == []
+
+
+def test_what_is_looked_at_through_a_hole_is_hidden_and_what_stands_behind_a_pole_is_told_too(made):
+    made.recording.meta["movers"] = ["first"]
+
+    with made.screening(looking) as screening:
+        screening.picture(0)
+        place, eye = (
+            screening._replay.data.body("first").xpos.copy(),
+            screening._replay.data.cam_xpos[screening._camera].copy(),
+        )
+    x, y, z = eye + (place - eye) * (-0.5 - eye[1]) / (place[1] - eye[1])
+
+    def behind(*boards):
+        def tell(film):
+            looking(film)
+            for number, (dx, dz, side, high) in enumerate(boards):
+                film.draw(f"trim {number}", "box", (side, 0.002, high), pos=(x + dx, y, z + dz))
+
+        with made.screening(tell) as screening:
+            screening.picture(0)
+            return screening.hidden()
+
+    left, right, above, below = (
+        (-0.105, 0, 0.2, 0.4),
+        (0.105, 0, 0.2, 0.4),
+        (0, 0.105, 0.02, 0.2),
+        (0, -0.105, 0.02, 0.2),
+    )
+    (told,) = behind(left, right, above, below)
+    assert told.startswith("first behind trim")
+    assert behind((0, 0, 0.01, 0.4)) == ["first behind trim 0"]
+    assert behind(left) == []
 
 
 def test_what_a_panel_of_light_hides_is_told_unless_it_is_not_there_to_be_seen(made):

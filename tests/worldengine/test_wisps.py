@@ -8,8 +8,9 @@ import pytest
 
 from hung_springs import Springs, run, world
 from small_worlds import lay_film
-from worldengine.film import described, motion_facts, puffs, wisps
+from worldengine.film import described, motion_facts, puffs, thick_puffs, wisps
 from worldengine.film.described import FilmError
+from worldengine.film.directed import Screening
 from worldengine.film.dressed import HIDDEN_GROUP, dress
 from worldengine.film.renderers.preview.eye import View
 from worldengine.film.treatment import Treatment
@@ -72,6 +73,39 @@ def test_the_statement_says_of_which_law_it_is_and_the_picture_needs_no_mark(mad
         "mist (the points of the law springs as a cloud in place of drops, each until 0.1 s after it set out)"
     ]
     assert film.puffs == () and described.stand_ins.words(film, 1) == ""
+
+
+def test_the_statement_says_when_it_comes_up_and_how_thick() -> None:
+    ages = np.linspace(0.0, 1.5, 151)
+
+    def said(opaque: np.ndarray) -> str:
+        told = np.stack([ages, np.full(151, 0.4), opaque])
+        return wisps.Cloud("mist", "drops", "springs", (1, 1, 1), told, np.zeros(0), None, np.zeros(1)).said()
+
+    blinks = said(np.where((ages > 0.245) & (ages < 0.655), 1.0, 0.0))
+    assert blinks.endswith("each from 0.25 to 0.65 s after it set out, thickest at 0.25 s, where each hides 100%)")
+    assert said(np.where(ages < 0.245, 0.01, 0.9)).endswith(
+        "when it sets out, thickest at 0.25 s, where each hides 90%)"
+    )
+    assert said(np.clip(ages / 0.06, 0.0, 1.0) * (1.5 - ages)).endswith("each until 1.5 s after it set out)")
+
+
+def test_what_wisps_hide_half_of_is_behind_them() -> None:
+    eye, ball = np.array([0.0, -2.0, 0.0]), np.zeros(3)
+    for opaque, name in ((0.9, "steam"), (0.1, "")):
+        wisp = ("steam", np.array([[0.0, -1.0, 0.0]]), np.array([0.1]), np.array([opaque]))
+        assert thick_puffs.before((), {}, 0, eye, ball, (wisp,)) == name
+    behind = ("steam", np.array([[0.0, 1.0, 0.0]]), np.array([0.1]), np.array([0.9]))
+    assert thick_puffs.before((), {}, 0, eye, ball, (behind,)) == ""
+
+
+def test_a_film_says_whom_a_cloud_hides(made, monkeypatch) -> None:
+    monkeypatch.setitem(made.recording.meta, "movers", ["weight"])
+    film = made.film(opacity=lambda age: 1.0 + 0 * age, diameter=lambda age: 1.5 + 0 * age)
+    world, frame = made.folder / "world.mjz", film.frames - 1
+    with Screening(world, portable.read(world), made.recording, film, (64, 36), 24) as screening:
+        screening.placed(frame)
+        assert "weight behind mist" in screening.hidden()
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import time
 from pathlib import Path
 
@@ -206,6 +207,26 @@ def test_what_is_called_just_so_is_found_before_its_rivals(meshes: Path) -> None
     for key in ("tin_box", "tin_can"):  # "can" is a word that a question has in passing
         octahedron(meshes, key)
     assert [hit.key for hit in find_asset("tin can").assets[:2]] == ["tin_can", "tin_box"]
+
+
+def test_what_is_said_of_it_anew_is_found_within_a_second(meshes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from worldwright.retrieve import assets as found
+    from worldwright.retrieve.tools import find_asset
+
+    octahedron(meshes, "marker")
+    monkeypatch.setattr(found, "FRESH_S", 1e9)
+    assert [hit.key for hit in find_asset("marker").assets[:1]] == ["marker"]
+    entry = next(path for path in meshes.rglob("*.yaml") if "marker" in path.as_posix().removeprefix(meshes.as_posix()))
+    text = re.sub(r"description: .*", "description: A zebra crossing", entry.read_text(encoding="utf-8"))
+    entry.write_text(text, encoding="utf-8")
+    octahedron(meshes, "beacon")  # what is new is found at once, and all is read again with it
+    assert [hit.key for hit in find_asset("beacon").assets[:1]] == ["beacon"]
+    assert [hit.key for hit in find_asset("zebra").assets[:1]] == ["marker"]
+    entry.write_text(text.replace("zebra", "pelican"), encoding="utf-8")
+    os.utime(entry, ns=(1, 1))
+    assert "marker" not in [hit.key for hit in find_asset("pelican").assets]
+    monkeypatch.setattr(found, "FRESH_S", 0.0)
+    assert [hit.key for hit in find_asset("pelican").assets[:1]] == ["marker"]
 
 
 def test_it_is_found_placed_and_drawn_like_any_other(meshes: Path) -> None:

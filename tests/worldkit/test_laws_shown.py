@@ -74,3 +74,10 @@ def test_a_world_that_is_stirred_keeps_the_names_of_its_laws() -> None:
     stirred = Recorded(lacking_motion.stirred(STILL))
     assert stirred.laws == ("steam", "soak") and stirred.grains == ("vapour",)
     assert stirred.points("sponge", 4.0).shape == (2, 3)
+
+
+@pytest.mark.parametrize("name", ["steam", "vapour"])
+def test_a_look_of_a_law_is_given_to_what_shows_it(name: str) -> None:
+    told = Film(Recorded(STILL))
+    told.look(name, "chrome")
+    assert told.description()[0]["looks"] == {"vapour": "chrome"}

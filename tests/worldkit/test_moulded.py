@@ -12,7 +12,7 @@ from worldkit.matter.lattices import filled, ridden
 SIDE = 0.06
 
 
-def press(stuff: Solid, cell: float = 0.015) -> tuple[Moulded, mujoco.MjModel, mujoco.MjData]:
+def press(stuff: Solid, cell: float = 0.015, pull: float = 0.0) -> tuple[Moulded, mujoco.MjModel, mujoco.MjData]:
     """A cube between a table and a plate that is led by the hand, both without friction."""
 
     class Pressed(Moulded):
@@ -20,7 +20,7 @@ def press(stuff: Solid, cell: float = 0.015) -> tuple[Moulded, mujoco.MjModel, m
 
     box = '<geom type="box" size=".1 .1 .01"/>'
     model = mujoco.MjModel.from_xml_string(
-        f'<mujoco><option gravity="0 0 0"/><worldbody><body name="table" pos="0 0 -.01">{box}</body>'
+        f'<mujoco><option gravity="0 0 {-pull}"/><worldbody><body name="table" pos="0 0 -.01">{box}</body>'
         f'<body name="plate" mocap="true" pos="0 0 {SIDE + 0.01}">{box}</body></worldbody></mujoco>'
     )
     data = mujoco.MjData(model)
@@ -103,6 +103,52 @@ def test_a_ball_leaves_its_dent_and_nothing_comes_from_nowhere() -> None:
     assert top < 0.045 - 0.004
 
 
+def test_what_lies_still_is_not_reckoned_and_its_price_says_so_until_a_jaw_creeps_on() -> None:
+    stuff = foam().but(damping=5e-4, down_to=0.8)
+    law, model, data = press(stuff, pull=9.81)
+    for _ in range(400):
+        felt = law.step(model, data, 0.002)
+    assert law.grows(0.4, 9.0) > 2.0
+    assert felt[:, :3].sum(axis=0) == pytest.approx([0, 0, -9.81 * law.mass.sum()])
+    for k in range(1500):  # 0.9 mm/s: slower than what wakes it at once
+        data.mocap_pos[0, 2] = SIDE + 0.01 - 0.9e-3 * 0.002 * (k + 1)
+        mujoco.mj_forward(model, data)
+        felt = law.step(model, data, 0.002)
+    assert felt[1, 2] == pytest.approx(-uniaxial(stuff, 1 - 0.0027 / SIDE) * SIDE**2, rel=0.12)
+
+
+def test_what_moves_far_away_wakes_nothing() -> None:
+    class Clay(Moulded):
+        name, bodies = "clay", ("world", "ball")
+
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><worldbody><geom type="plane" size="1 1 1"/><body name="ball" pos="0 0 .6"><freejoint/>'
+        '<geom type="sphere" size=".02"/></body></worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    law = Clay(clay(), sculpt.box((0.06, 0.06, 0.06)), (0, 0, 0.03), 0.02)
+    law.start(model, data)
+    for _ in range(100):
+        law.step(model, data, 0.002)
+        mujoco.mj_step(model, data)
+    assert data.qvel[2] < -1 and law.grows(0.2, 1.0) > 3.0, "it lies still while the ball falls"
+
+
+def test_what_was_thrown_up_does_not_hang_where_it_turns() -> None:
+    law, model, data = press(clay(), pull=9.81)
+    data.mocap_pos[0, 2] = 1.0
+    mujoco.mj_forward(model, data)
+    for _ in range(40):
+        law.step(model, data, 0.001)
+    rest, speed = law.points[:, 2].mean(), 0.5
+    law._v[:, 2] += speed
+    law._calm = 0
+    for _ in range(80):
+        law.step(model, data, 0.001)
+    assert law.points[:, 2].mean() - rest == pytest.approx(speed * 0.08 - 9.81 * 0.08**2 / 2, abs=1.5e-3)
+
+
 def test_a_round_shape_is_filled_to_its_surface() -> None:
     lattice = filled(sculpt.sphere(0.08), 0.01, "ball")
     assert lattice.room.min() > 0
@@ -129,6 +175,19 @@ def test_what_cannot_be_is_refused_with_the_number_that_can() -> None:
     assert "grain" in refused.value.next_move
     with pytest.raises(ProgramError, match="cell"):
         Moulded(foam(), sculpt.box((0.1, 0.1, 0.1)), (0, 0, 0), -1.0)
+    with pytest.raises(ProgramError, match="rubs by -1"):
+        foam().but(wall_friction=-1.0)
+    for given, says in (({"cell": 1e-4}, "make them"), ({"cell": 0.02, "grain": 1e-5}, "grain")):
+        with pytest.raises(ProgramError, match="more than") as refused:
+            Moulded(foam(), sculpt.box((0.1, 0.1, 0.1)), (0, 0, 0), **given)
+        assert says in refused.value.next_move
+
+
+def test_a_shape_may_lie_anywhere_in_its_own_frame() -> None:
+    law, model, data = press(foam())
+    far = type(law)(foam(), sculpt.box((SIDE, SIDE, SIDE)).translate(-1, -1, -1), (1, 1, 1 + SIDE / 2), 0.015)
+    far.start(model, data)
+    assert np.isfinite(far.step(model, data, 0.002)).all()
 
 
 def test_a_plate_that_is_led_by_the_hand_pushes_a_liquid() -> None:

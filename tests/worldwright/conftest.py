@@ -10,12 +10,21 @@ import pytest
 
 os.environ.setdefault("MUJOCO_GL", "egl")
 
+import forked_preroll
+from worldwright.place import asking
 from worldwright.stage.warm import kept_warm
 
 kept_warm.keep()
+forked_preroll.fork()
 
 PLAN = (Path(__file__).parent / "world" / "dropped-ball.md").read_text(encoding="utf-8")
 RUN = "dropped-ball"
+
+
+@pytest.fixture
+def started_preroll(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pre-rolls are processes that are started, as everywhere but in tests."""
+    monkeypatch.setattr(asking, "subprocess", forked_preroll.STARTED)
 
 
 @pytest.fixture(scope="session")

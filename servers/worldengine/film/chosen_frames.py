@@ -3,7 +3,9 @@ for on one sheet. The stage is set once for all of them, which takes longer than
 
 import argparse
 import math
+import random
 import time
+from collections import Counter
 from collections.abc import Callable
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
@@ -11,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit.files import write_atomic
 
 from ..recording.replay import Replay
+from . import behind_walls
 from .encode import PASSING, write_png
 from .light_meter import reading
 from .picture_grid import labelled, laid_out
@@ -23,10 +26,13 @@ if TYPE_CHECKING:
     from ..given import Given
     from ..recording.stored import Recording
     from .described import Described
+    from .directed import Screening
 
 FILM, FREE = "film", "free"
 """Names of the cameras that no plan has: the film's own, and one that stands anywhere."""
 SHOTS_A_SHEET = 6
+LOOKED_AT, LOOKED_S = 60, 3.0
+"""So many frames of a film are asked what they hide, for so long, s."""
 WORDS = ("first", "middle", "last")
 """What is drawn of each shot; a row of a sheet."""
 
@@ -66,6 +72,7 @@ def of_film(
             else:
                 write_png(options.out / picture_name(done), image)
         said = screening.frames.told()
+        unlit = behind_walls.told(screening.model, recording, film, given.fps, given.movers) if options.shots else []
     step = SHOTS_A_SHEET * len(WORDS)
     for sheet, start in enumerate(range(0, len(cells), step), 1):
         write_atomic(options.out / f"shots-{sheet}.jpg", laid_out(cells[start : start + step], len(WORDS)))
@@ -80,6 +87,7 @@ def of_film(
         "frames": film.frames,
         "frame_s": round(cost, 3),
         "film": film.told(given.fps),
+        "unlit": unlit,
     }
 
 
@@ -120,9 +128,10 @@ def each(
 ) -> dict[str, Any]:
     """Draw the pictures `options.seen`, of one quality, size, moment and camera each; none is begun after `options.within` s but the first.
 
-    The stage is set once for all of a size, that of the film apart. `drawn` has the places of those that were drawn, from 0.
+    The stage is set once for all of a size, that of the film apart. `drawn` has the places of those that were drawn, from 0;
+    `hides`, of a film, what some of its frames hide (`_hides`).
     """
-    until, drawn = time.perf_counter() + options.within, list[int]()
+    until, drawn, hides = time.perf_counter() + options.within, list[int](), dict[str, Any]()
     stages: dict[tuple[bool, tuple[int, int]], list[int]] = {}
     for place, (_, size, _, camera) in enumerate(options.seen):
         stages.setdefault((camera == FILM, size), []).append(place)
@@ -132,18 +141,17 @@ def each(
                 break
             model = given.model()  # cameras of another shape are aimed anew, as in a process of their own
         with ExitStack() as stack:
-            draw = (
-                _screened(stack, model, recording, film, given, size)
-                if film is not None and filmed
-                else _seen(stack, model, recording, size)
-            )
+            screening = _screened(stack, model, recording, film, given, size) if film is not None and filmed else None
+            draw = _seen(stack, model, recording, size) if screening is None else _of(screening)
             for place in places:
                 if drawn and time.perf_counter() > until:
                     break
                 quality, _, at_s, camera = options.seen[place]
                 write_png(options.out / picture_name(place), draw(at_s, camera, quality), PASSING)
                 drawn.append(place)
-    return {"cameras": list(dict.fromkeys(options.seen[place][3] for place in drawn)), "drawn": drawn}
+            if screening is not None and not hides:
+                hides = {"hides": _hides(screening)}
+    return {"cameras": list(dict.fromkeys(options.seen[place][3] for place in drawn)), "drawn": drawn, **hides}
 
 
 def _screened(
@@ -153,13 +161,29 @@ def _screened(
     film: "Described",
     given: "Given",
     size: tuple[int, int],
-) -> "Callable[[float, str, Quality], np.ndarray]":
-    """What draws the film's frame at a moment of it, s."""
+) -> "Screening":
+    """What draws the film's frames, each alone."""
     from .directed import Screening
 
     screening = stack.enter_context(Screening(given.world, model, recording, film, size, given.fps))
     screening.alone = True
-    return lambda at_s, _, quality: screening.picture(_frame(at_s, film, given.fps), quality)
+    return screening
+
+
+def _of(screening: "Screening") -> "Callable[[float, str, Quality], np.ndarray]":
+    """What draws the film's frame at a moment of it, s."""
+    return lambda at_s, _, quality: screening.picture(_frame(at_s, screening.film, screening.fps), quality)
+
+
+def _hides(screening: "Screening") -> dict[str, Any]:
+    """What frames of the film hide, `frames` of them by chance, none of which is drawn: how many of them, by what is hidden."""
+    frames = random.SystemRandom().sample(range(screening.film.frames), min(LOOKED_AT, screening.film.frames))
+    found, until, looked = Counter[str](), time.perf_counter() + LOOKED_S, 0
+    while looked < len(frames) and time.perf_counter() < until:
+        screening._moment(frames[looked])
+        found.update(screening.hidden())
+        looked += 1
+    return {"frames": looked, "hidden": dict(found)}
 
 
 def _seen(

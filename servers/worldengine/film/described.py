@@ -11,7 +11,7 @@ from worldkit.filming import film_bounds as bounds
 from worldkit.filming.drawn_only import SHAPES
 from worldkit.scene import GROUND
 
-from . import gobos, ground_skins, puffs, stand_ins, swaying, time_map, wisps
+from . import blanked, gobos, ground_skins, lettering, puffs, skin_reach, stand_ins, swaying, time_map, wisps
 from .treatment import Treatments
 
 if TYPE_CHECKING:
@@ -60,6 +60,8 @@ class Described:
     puffs: tuple[dict[str, Any], ...] = ()
     clouds: tuple[wisps.Cloud, ...] = ()
     """What shows the points of a law, simulated as they are."""
+    labels: tuple[str, ...] = ()
+    """Words on things that stand in the world."""
 
     @property
     def frames(self) -> int:
@@ -80,24 +82,27 @@ class Described:
 
     def drawn_only(self) -> list[str]:
         """Say what is drawn and not simulated, for the statement and the report."""
-        said = []
+        said, figures = [], {thing["of"]: thing.get("like", "") for thing in self.things if thing.get("of")}
         for thing in self.things:
-            if thing.get("ways"):
+            if thing.get("of"):
+                if (like := figures.pop(thing["of"], None)) is not None:
+                    said.append(thing["of"] + f" ({like})" * bool(like))
+            elif thing.get("ways"):
                 copies = self.arrays[thing["ways"]].shape[1]
                 said.append(f"{thing['name']} ({copies} particles{' of ' * ('like' in thing)}{thing.get('like', '')})")
             elif thing["instead"]:
                 away = thing.get("off_m")
                 off = "" if away is None else f", up to {away:.2g} m off its surface"
                 off = ", within 1 mm of its surface" if away is not None and away < 1e-3 else off
-                said.append(f"{thing['name']} (skin over {thing['to']}{off})")
+                said.append(f"{thing['name']} (skin over {thing['to']}{off}{thing.get('reach', '')})")
             else:
                 about = [f"on {thing['to']}" * bool(thing["to"]), thing.get("like", "")]
                 said.append(thing["name"] + (f" ({', '.join(filter(None, about))})" if any(about) else ""))
         said += [stand_ins.covered(one, self.things) for one in self.surfaces]
         said += [f"{one['name']} ({', '.join(filter(None, ('puffs', one.get('like'))))})" for one in self.puffs]
         said += [cloud.said() for cloud in self.clouds]
-        lit = {thing["name"] for thing in self.things}
-        said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
+        balls = {(thing["name"], thing["to"], *thing["pos"]) for thing in self.things if thing["shape"] == "sphere"}
+        said += [f"{one['name']} (a lamp)" for one in self.lamps if (one["name"], one["to"], *one["pos"]) not in balls]
         said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
         if gobo := (treated := self.treatments.at(0.0)).light_gobo:
             said.append(f"shadow of {gobo.kind} (a pattern before the light)")
@@ -114,11 +119,11 @@ class Described:
         faint = [name for name in looks if opacity(self.looks[name]) < bounds.SEEN]
         looks |= {name: f"{looks[name]}, nearly clear" for name in faint}
         return {
-            "drawn_only": self.drawn_only(),
+            "drawn_only": [*self.drawn_only(), *blanked.told(self.treatments, self.frames, fps)],
             "looks": looks,
             "shots": time_map.shots(self, fps),
             "time_map": time_map.paces(self, fps),
-            "captions": [c["text"] for c in self.captions],
+            "captions": [*(c["text"] for c in self.captions), *self.labels],
         }
 
 
@@ -176,6 +181,7 @@ def _checked(
     surfaces = tuple(_surface(one, arrays, bodies | particles) for one in told.get("surfaces", ()))
     things = stand_ins.told(things, arrays, recording, surfaces)
     things = tuple(thing | ground_skins.off(thing, arrays, recording) for thing in things)
+    things = tuple(thing | skin_reach.told(thing, arrays, recording) for thing in things)
     if (
         len({one["name"] for one in (*things, *surfaces)}) < len(things) + len(surfaces)
         or len(surfaces) > MOST_SURFACES
@@ -192,7 +198,7 @@ def _checked(
     geoms = {str(geom["name"]) for geom in recording.meta["geoms"] if geom["name"]}
     looks = {str(name): _look(look, arrays) for name, look in told["looks"].items()}
     for name in looks:
-        if name not in bodies | geoms:
+        if name not in bodies | geoms | {str(flex["name"]) for flex in recording.meta.get("flexes") or ()}:
             raise _refuse(
                 f"a look is given to {name!r}, which is no body and no geom of the world", "name one that it has"
             )
@@ -205,7 +211,7 @@ def _checked(
     return Described(
         tuple(shots), captions, Treatments(air, stated, gobos.told(told)), things, surfaces, lamps, panels, looks, share, samples,
         arrays, swaying.told(told), stand_ins.of_puffs(puffs.check(told, arrays, n), arrays, recording),
-        wisps.read(told, arrays, recording, [body for one in surfaces for body in one["of"]]),
+        wisps.read(told, arrays, recording, [body for one in surfaces for body in one["of"]]), lettering.labels(told),
     )  # fmt: skip
 
 
@@ -388,6 +394,7 @@ def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[st
         if "turns" in told:
             found["turns"] = str(told["turns"])
             turns = arrays[found["turns"]]
+            found |= {"of": str(told["of"])[:60]} if told.get("of") else {}
             if turns.shape != (*ways.shape[:2], 4) or not (np.abs(np.linalg.norm(turns, axis=2) - 1) < 1e-3).all():
                 raise _refuse(f"{name!r} is not turned by a quaternion for each of its particles in each frame")
     return found

@@ -8,7 +8,7 @@ from worldkit import cameras, turning
 from worldkit.filming.viewpoints import axes
 
 from ..recording.replay import Replay
-from . import camera_roll, puffs, smear, stand_ins, streaks, thick_puffs, time_map
+from . import behind_drawn, camera_roll, puffs, smear, stand_ins, streaks, time_map
 from .described import Described
 from .drawn_frames import Frames
 from .dressed import CAMERA, DressedReplay, dress, surfaces
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
 HELD = ("eye", "target", "roll_deg", "fovy_deg", "focus_m", "aperture")
 """What does not change while a camera stands still."""
-PAST_M = 1e-5
-"""A ray goes on so far behind a surface that does not count."""
+GONE = 1e-9
+"""What is not there in a frame is drawn so many times smaller: a point, which neither picture nor ray meets."""
 
 
 class Screening:
@@ -71,17 +71,11 @@ class Screening:
         self._replay = DressedReplay(self.model, plain, recording)
         self._time = np.asarray(recording.time) - recording.time[0]
         self._movers = [name for name in recording.meta.get("movers") or () if name in recording.names]
+        self._aims = behind_drawn.aims(recording, self._movers)
         self._camera = int(self.model.camera(CAMERA).id)
-        self._copies = [
-            (self.model.geom(f"drawn.{thing['name']}/0").id, film.arrays[thing["ways"]], film.arrays[thing["sizes"]])
-            for thing in film.things
-            if thing.get("ways") and "turns" not in thing
-        ]
-        self._leaves = [
-            (self.model.geom(f"drawn.{thing['name']}/0").id, film.arrays[thing["ways"]], film.arrays[thing["turns"]])
-            for thing in film.things
-            if "turns" in thing
-        ]
+        flying = [thing for thing in film.things if thing.get("ways")]
+        self._copies = [self._by_frame(thing, "ways", "sizes") for thing in flying if "turns" not in thing]
+        self._leaves = [self._by_frame(thing, "ways", "sizes", "turns") for thing in flying if "turns" in thing]
         self._surfaces = surfaces(self.model, film)
         self._swaying = Swaying(self.model)
         self._planned: Replay | None = None
@@ -106,6 +100,10 @@ class Screening:
         """Why no puffs are drawn, where the driver does not say how far away is what a picture shows."""
         self._sharp = ""
         """Why nothing is smeared, where the driver cannot draw what a picture shows."""
+
+    def _by_frame(self, thing: dict[str, Any], *told: str) -> "tuple[Any, ...]":
+        """The geom of a thing's first copy, and what is told of it frame by frame."""
+        return self.model.geom(f"drawn.{thing['name']}/0").id, *(self.film.arrays[thing[key]] for key in told)
 
     @property
     def sways(self) -> bool:
@@ -289,12 +287,13 @@ class Screening:
             count = ways.shape[1]
             data.geom_xpos[first : first + count] = (1 - part) * ways[low] + part * ways[high]
             self.model.geom_size[first : first + count, 0] = np.maximum(sizes[low] / 2, 1e-9)
-        for first, ways, turns in self._leaves:
+        for first, ways, sizes, turns in self._leaves:
             copies, mesh = slice(first, first + ways.shape[1]), int(self.model.geom_dataid[first])
             turned = turning.matrices(turns[low if part < 0.5 else high])
             place = (1 - part) * ways[low] + part * ways[high]
             data.geom_xpos[copies] = place + turned @ self.model.mesh_pos[mesh]
             data.geom_xmat[copies] = (turned @ turning.matrices(self.model.mesh_quat[mesh])).reshape(-1, 9)
+            data.geom_xmat[copies][sizes[low if part < 0.5 else high] == 0] *= GONE
         self._look(data, shot, row, told)
         if self._surfaces and laid:
             pixel = np.radians(self.model.cam_fovy[self._camera]) / self.frames.height
@@ -325,7 +324,7 @@ class Screening:
         self.model.cam_fovy[camera] = float(told("fovy_deg"))
 
     def hidden(self) -> list[str]:
-        """The film's own things that cover the middle of a moving body in the frame drawn last: `ball behind pillar`.
+        """The film's own things that cover the middle of a moving body in the frame drawn last, or most around it: `ball behind pillar`.
 
         The plan's cameras are drawn without them, so evidence is never hidden; the statement tells where the film hides it.
         What sways counts where the breeze has carried it; puffs, where together they hide half of what is behind them.
@@ -333,42 +332,16 @@ class Screening:
         if self._blown is not None and self._movers:
             self._swaying.blow(self._replay.data, self._blown)
         with self._swaying:
-            return self._met()
-
-    def _met(self) -> list[str]:
-        """What `hidden` says, while rays pass what sways."""
-        import mujoco
-        import numpy as np
-
-        data, found, hit = self._replay.data, [], np.zeros(1, np.int32)
-        eye = np.array(data.cam_xpos[self._camera])
-        groups = np.array([1, 1, 1, 0, 0, 0], np.uint8)
-        skins = {f"drawn.{thing['name']}" for thing in self.film.things if thing.get("instead")}
-        clouds = () if self.puffless else self.film.puffs
-        stands = clouds or self.film.things or any(panel["seen"] for panel in self.film.panels)
-        for name in self._movers if stands else ():
-            body = self.model.body(name).id
-            to = data.xipos[body] - eye
-            away = float(np.linalg.norm(to))
-            way, gone = to / max(away, 1e-9), 0.0
-            near, before = self._swaying.nearest(eye, way, away)
-            while gone < away:
-                met = mujoco.mj_ray(self.model, data, eye + gone * way, way, groups, True, -1, hit)
-                if met < 0 or gone + met >= near:
-                    if before >= 0:
-                        found.append(f"{name} behind {_called(self.model.geom(before).name)}")
-                    break
-                geom = self.model.geom(int(hit[0]))
-                drawn = geom.name.startswith("drawn.")
-                if int(self.model.geom_bodyid[geom.id]) != body or (drawn and geom.name not in skins):
-                    if drawn:
-                        found.append(f"{name} behind {_called(geom.name)}")
-                    break
-                # Neither the mover itself nor its skin hides it.
-                gone += met + PAST_M
-            if cloud := thick_puffs.before(clouds, self.film.arrays, self._shown, eye, data.xipos[body]):
-                found.append(f"{name} behind {cloud}")
-        return found
+            return behind_drawn.met(
+                self.model,
+                self._replay.data,
+                self._camera,
+                self.film,
+                self._shown,
+                self._aims,
+                self._swaying,
+                not self.puffless,
+            )
 
     def segmentation(self) -> "np.ndarray":
         """The first of `layers`."""
@@ -393,8 +366,3 @@ class Screening:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: "TracebackType | None"
     ) -> None:
         self.close()
-
-
-def _called(geom: str) -> str:
-    """The name of a drawn thing by that of its geom, which its copies number."""
-    return geom.removeprefix("drawn.").split("/")[0]

@@ -91,7 +91,10 @@ def _material(spec: "mujoco.MjSpec", film: Described, look: Any, name: str) -> s
 
 
 def _relook(spec: "mujoco.MjSpec", name: str, material: str) -> None:
-    """Give a body's visible shapes, or one geom, another material."""
+    """Give a body's visible shapes, one geom, or a soft thing another material."""
+    if (soft := spec.flex(name)) is not None:
+        soft.material, soft.rgba = material, UNSET_RGBA
+        return
     body = spec.body(name)
     geoms = [geom for geom in body.geoms if geom.group <= 2] if body is not None else [spec.geom(name)]
     for geom in geoms:

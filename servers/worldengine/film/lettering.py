@@ -9,6 +9,7 @@ if TYPE_CHECKING:
 
 FADE_S, FADE_SHARE = 0.35, 0.25
 """A caption comes and goes within so many seconds, and within this share of the time that it stands."""
+MOST_LABELS = 500
 USUAL = 0.02
 """A speed this near to 1 counts as 1."""
 
@@ -140,3 +141,15 @@ def _badge(image: "np.ndarray", words: str) -> None:
     words = _cut(words, size, 450, width - 2 * edge)
     wide, tall = _extent(words, size, 450)
     _write(image, words, (width - edge - wide, edge + tall), size, 450, (250, 248, 244), 0.9)
+
+
+def labels(told: dict[str, Any]) -> tuple[str, ...]:
+    """The words that a film's description writes on things in the world.
+
+    Raises:
+        ValueError: they are no words, or too many.
+    """
+    found = tuple(told.get("labels", ()))
+    if len(found) > MOST_LABELS or not all(isinstance(one, str) and 0 < len(one) <= 200 for one in found):
+        raise ValueError("what is written on things is no list of words")
+    return tuple(dict.fromkeys(found))

@@ -265,12 +265,15 @@ def frame(
     options: argparse.Namespace,
 ) -> dict[str, Any]:
     """Draw the moments `options.at`, s, of the film, or of the recording through a camera, or `options.seen`; see `chosen_frames`."""
-    from . import chosen_frames
+    from . import chosen_frames, roughly
 
+    if options.moving and film is not None:
+        return roughly.draw(model, recording, film, given, options)
     if options.seen:
         if planned := [camera for *_, camera in options.seen if film is None or camera != FILM]:
             choose_cameras(model, planned)
-        return chosen_frames.each(model, recording, film, given, options)
+        found = chosen_frames.each(model, recording, film, given, options)
+        return found if film is None else {"film": film.told(given.fps), **found}
     if film is not None and not options.cameras and options.eye is None:
         return chosen_frames.of_film(model, recording, film, given, options)
     name = choose_cameras(model, options.cameras)[0]

@@ -200,7 +200,7 @@ def words(film: Any, frame: int) -> str:
     from . import thick_puffs
 
     shown = [
-        thing.get("under") or thing["name"]
+        thing.get("under") or thing.get("of") or thing["name"]
         for thing in film.things
         if thing.get("like")
         and not thing.get("worn")

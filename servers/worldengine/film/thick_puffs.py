@@ -23,24 +23,30 @@ def before(
     frame: int,
     eye: "np.ndarray",
     to: "np.ndarray",
+    wisps: "tuple[tuple[str, np.ndarray, np.ndarray, np.ndarray], ...]" = (),
 ) -> str:
-    """The name of the puffs that hide most of a point from an eye (3,), m, in a frame; empty where all of them hide too little."""
+    """The name of the puffs that hide most of a point from an eye (3,), m, in a frame; empty where all of them hide too little.
+
+    `wisps` are those of clouds in that frame: a name, places (Q, 3), radii (Q,), m, and opacities (Q,) of each (`wisps.Cloud.puffs`).
+    """
     import numpy as np
 
     away = float(np.linalg.norm(to - eye))
-    way, depths = (to - eye) / max(away, 1e-9), [0.0]
+    way, depths = (to - eye) / max(away, 1e-9), dict[str, float]()
+    told = [*wisps]
     for one in puffs:
-        radius = np.asarray(arrays[one["wide"]][frame], float) / 2
-        there = (radius > 0) & (np.asarray(arrays[one["opaque"]][frame]) > 0)
-        place = np.asarray(arrays[one["places"]][frame][there], float) - eye
+        places, wide, opaque = (np.asarray(arrays[one[what]][frame], float) for what in ("places", "wide", "opaque"))
+        told.append((str(one["name"]), places, wide / 2, opaque))
+    for name, places, radius, opaque in told:
+        there = (radius > 0) & (opaque > 0)
+        place = places[there] - eye
         along = place @ way
         met = (along > 0) & (along < away)
         aside = ((place[met] - along[met, None] * way) ** 2).sum(axis=1)
-        thick = depth_of(arrays[one["opaque"]][frame][there][met])
-        depths.append(float((thick * np.exp(-2.0 * aside / radius[there][met] ** 2)).sum()))
-    if -np.expm1(-sum(depths)) < HIDES:
-        return ""
-    return str(puffs[int(np.argmax(depths[1:]))]["name"])
+        thick = depth_of(opaque[there][met])
+        depths[name] = depths.get(name, 0.0) + float((thick * np.exp(-2.0 * aside / radius[there][met] ** 2)).sum())
+    hides = -np.expm1(-sum(depths.values())) >= HIDES
+    return max(depths, key=lambda name: depths[name]) if hides else ""
 
 
 def thick(one: dict[str, Any], arrays: "dict[str, np.ndarray]", frame: int) -> "np.ndarray":

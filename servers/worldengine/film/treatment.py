@@ -10,6 +10,9 @@ if TYPE_CHECKING:
 
     from .gobos import Gobo
 
+ENDLESS_M, LOW_M, THICK_M = 1e5, 10.0, 120.0
+HAZE, THICK = 3.0 / 200.0, 3.0 / 60.0
+"""The share hidden per metre by fog of 200 m of sight, above which the sky begins to be lost in it, and of 60 m."""
 Rgb = tuple[float, float, float]
 
 
@@ -33,6 +36,8 @@ class Treatment:
     sky_clouds: float = 0.0
     sky_stars: float = 0.0
     sky_strength: float = 1.0
+    sky_indoors: float = 0.0
+    """1: what metal mirrors of it is a room, with a window toward the light."""
     fog_rgb: Rgb | None = None
     fog_density: float = 0.0
     """The share that fog hides per metre at the ground, 1/m."""
@@ -51,6 +56,15 @@ class Treatment:
     """The wind that moves what sways, towards x and y, m/s, and the recorded time, s."""
     aperture: float = 0.0
     """The f-number of the lens; with 0 everything is sharp."""
+
+    @property
+    def fog_over_m(self) -> float:
+        """How high the fog lies that the open sky is seen through, m: as it is told; of one without a height, which fills all
+        that is near, a low layer, so that the sky keeps its colour, unless it is thick."""
+        if self.fog_height_m < ENDLESS_M:
+            return min(self.fog_height_m, THICK_M)
+        dense = min(max((self.fog_density - HAZE) / (THICK - HAZE), 0.0), 1.0)
+        return LOW_M * (THICK_M / LOW_M) ** dense
 
     @property
     def lit(self) -> tuple[Any, ...]:

@@ -20,6 +20,8 @@ MOST_WISPS, EACH, FEWEST, STRAND = 24_000, 60, 3, 9
 """Wisps of a cloud in a frame, of one puff at most and at least, and so many of them make a strand."""
 BODY = 0.5
 """The share of a puff that hangs between its strands, wide and soft."""
+EARLY_S, RISES = 0.1, 1.1
+"""What is not seen until then, or hides so many times more than it does until then, comes up later, which is told."""
 BEGINS_M = 1e-3
 """A point that is farther than this from where it was first has set out."""
 UNEVEN = 0.75
@@ -61,9 +63,16 @@ class Cloud:
 
     def said(self) -> str:
         """What it is, for the statement."""
-        seen = self.ages[0][(self.ages[1] > 0) & (self.ages[2] > 0)]
-        until = f" until {seen.max():.2g} s after it set out" if len(seen) and seen.max() < self.ages[0, -1] else ""
-        return f"{self.name} (the points of the law {self.law} as a cloud in place of {self.of}, each{until or ' from when it sets out'})"
+        ages, opaque = self.ages[0], np.where(self.ages[1] > 0, self.ages[2], 0.0)
+        when = " from when it sets out"
+        if len(seen := ages[opaque > 0]):
+            ends = seen.max() < ages[-1]
+            when = f" until {seen.max():.2g} s after it set out" if ends else when
+            if seen.min() > EARLY_S:
+                when = f" from {seen.min():.2g} {f'to {seen.max():.2g} s' if ends else 's on'} after it set out"
+        if opaque[peak := int(opaque.argmax())] > RISES * opaque[ages <= max(EARLY_S, ages[0])].max():
+            when += f", thickest at {ages[peak]:.2g} s, where each hides {opaque[peak]:.0%}"
+        return f"{self.name} (the points of the law {self.law} as a cloud in place of {self.of}, each{when})"
 
 
 def read(

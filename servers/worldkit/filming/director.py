@@ -4,13 +4,14 @@ from typing import Any
 
 import numpy as np
 
+from .. import materials
 from ..errors import ProgramError
-from . import free_edge, hero, sets
+from . import free_edge, hero, sets, whereabouts
+from .drawn_hands import DrawnHands
 from .drawn_only import look_facts
 from .film_bounds import FAR_M, MOST_FRAMES, NATURAL_SHUTTER, PLACES
 from .frame_by_frame import grown, sampled
 from .lettered_plates import Labelled
-from .limbs import Limbs
 from .plain_refusals import NoTimeError, line, refusing
 from .recorded import Recorded
 from .viewpoints import Viewpoint, axes
@@ -20,7 +21,7 @@ Speed = float | tuple[float, float]
 
 
 @refusing
-class Film(Labelled, Limbs):
+class Film(Labelled, DrawnHands):
     """A film in the making; `recorded` is what happened.
 
     Shots follow each other; what is not said has good defaults: without any shot the film tells the event by itself, without
@@ -155,6 +156,24 @@ class Film(Labelled, Limbs):
         if self.recorded.floor:
             self.ground(self.recorded.floor)
 
+    def usual_set(self, *, facing_deg: float = -57.0) -> None:
+        """The surroundings that the plan's words name (else its setting), with their hour, wind and, of a liquid, one surface.
+
+        `facing_deg` is the side from which the camera looks, as of `set`. Around a world that brings its own land stand trees and
+        hills; where no set suits there is none.
+        """
+        recorded = self.recorded
+        if recorded.setting == "outdoor" and whereabouts.own_land(recorded):
+            whereabouts.countryside(self, facing_deg)
+        elif name := whereabouts.choose(recorded):
+            self.set(name, facing_deg=facing_deg, hour=whereabouts.hour(recorded))
+        if any(recorded.wind[:2]):
+            self.breeze()
+        for body in recorded.grains:  # a liquid or snow is one thing to the eye, whatever points it is reckoned with
+            look = recorded.looks.get(body, "")
+            if look == "snow" or (look and materials.look(look).clear > 0):
+                self.surface(f"{body} as one", of=body, look=look, smooth=2.0 if look == "snow" else 1.0)
+
     # -- the description -----------------------------------------------------------------------------------------------
 
     def description(self) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
@@ -192,6 +211,8 @@ class Film(Labelled, Limbs):
         }  # fmt: skip
         if puffs := self._blown(times, arrays):
             facts["puffs"] = puffs
+        if self._labels:
+            facts["labels"] = self._labels
         if clouds := self._clouded(arrays):
             facts["clouds"] = clouds
         self.line = 1

@@ -94,6 +94,8 @@ class Thing:
     """(F, P): the diameter of each copy in each frame, m; 0 is not drawn."""
     turns: np.ndarray | None = None
     """(F, P, 4): how each copy of a mesh is turned in each frame."""
+    of: str = ""
+    """What it is a piece of, where several make one: that is what is listed."""
     grows: bool = False
     """Blades of grass: each is lit as the sward that it belongs to, not as a plate."""
 
@@ -119,6 +121,7 @@ class Thing:
             "look": look_facts(self.look, arrays, f"picture{number}"),
         }  # fmt: skip
         found |= {"grows": True} if self.grows else {}
+        found |= {"of": self.of} if self.of else {}
         for name, kind in (
             ("vertices", "f4"),
             ("faces", "i4"),

@@ -26,6 +26,7 @@ class Dressing(Clouds):
         self._things: list[Thing] = []
         self._grown: list[tuple[Thing, Callable[[np.ndarray], Any], int]] = []
         self._surfaces: list[dict[str, Any]] = []
+        self._labels: list[str] = []
         self._lamps: list[dict[str, Any]] = []
         self._panels: list[dict[str, Any]] = []
         self._looks: dict[str, str | Surface] = {}
@@ -34,10 +35,13 @@ class Dressing(Clouds):
 
     def as_planned(self) -> None:
         """Light and sky as the plan states them, whatever was said of them before; nothing where it states none."""
+        if told := self._stated():
+            self._told(None, **told)
+
+    def _stated(self) -> dict[str, Any]:
         from ..lights import treated
 
-        if told := treated(**self.recorded.light):
-            self._told(None, **told)
+        return treated(**self.recorded.light)
 
     def draw(
         self,
@@ -356,10 +360,14 @@ class Dressing(Clouds):
         )  # fmt: skip
 
     def look(self, name: str, look: str | Surface) -> None:
-        """Another look for a body, or for one geom, through the whole film; the report lists it. None makes a mover unseen."""
+        """Another look for a body, one geom, or a law or what shows it, through the whole film; the report lists it.
+
+        None makes a mover unseen.
+        """
         known(look)
         if not isinstance(name, str):
             raise ProgramError(f"a look is given to a body or a geom by its name, not to {name!r}", "film.py", "")
+        name = self.recorded.shows.get(name, name)
         self._looks[name] = opaque(look, name, self.recorded.movers)
 
     def ground(self, look: str | Surface) -> None:

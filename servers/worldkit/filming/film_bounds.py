@@ -23,7 +23,8 @@ GOBO_M = (0.01, 1000.0)
 LIGHT: dict[str, tuple[float, float]] = {
     "light_azimuth_deg": (-720, 720), "light_elevation_deg": (1, 90), "light_rgb": (0, 1), "light_strength": (0, 10),
     "light_softness_deg": (0, 45), "sky_zenith": (0, 1), "sky_horizon": (0, 1), "sky_ground": (0, 1), "sky_glow": (0, 4),
-    "sky_clouds": (0, 1), "sky_stars": (0, 1), "sky_strength": (0, 10), "fog_rgb": (0, 1), "fog_density": (0, 100),
+    "sky_clouds": (0, 1), "sky_stars": (0, 1), "sky_strength": (0, 10), "sky_indoors": (0, 1), "fog_rgb": (0, 1),
+    "fog_density": (0, 100),
     "fog_height_m": (1e-3, 1e6), "grade_exposure_stops": (-8, 8), "grade_contrast": (0, 3), "grade_saturation": (0, 3),
     "grade_temperature": (-1, 1), "grade_tint": (-1, 1), "grade_vignette": (0, 1), "grade_glow": (0, 1),
     "grade_fade": (0, 1),

@@ -79,6 +79,8 @@ def _soft_px(focus_m: float, away_m: float, fovy_deg: float, aperture: float) ->
 def grown(thing: Thing, at: Callable[[np.ndarray], Any], times: np.ndarray) -> Thing:
     """Particles with their places in every frame."""
     told = at(times)
+    if thing.of:  # a piece of a figure that tells its own way: places, 1 where it is shown, and turns
+        return replace(thing, ways=told[0], sizes=told[1], turns=told[2])
     places, sizes = told if isinstance(told, tuple) else (told, None)
     places = np.asarray(places, dtype=float)
     good = places.ndim == 3 and places.shape[0] == len(times) and places.shape[2] == 3 and np.isfinite(places).all()

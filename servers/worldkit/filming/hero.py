@@ -42,26 +42,63 @@ CROWD = 8
 def shots(recorded: Recorded) -> list[Told]:
     """The whole recording from one side by a camera that stands still, or that goes along with whom it happens to where that is
     small."""
-    heroes, end = leads(recorded), settled(recorded)
-    speed = np.clip(end / LONGEST_S, 1.0, 50.0) * np.clip(end / SHORTEST_S, 0.2, 1.0)
-    speed = 1.0 if abs(speed - 1.0) < 0.2 else speed
-    camera, away = whole(recorded, *view(recorded))
-    if heroes and len(recorded.movers) <= CROWD:
-        tangent = float(np.tan(np.radians(viewpoints.fovy_deg(LENS_MM)) / 2))
-        focus: str | float = away
-        if recorded.radius(*heroes) < LEAST * away * tangent:
-            focus, away = heroes[0], recorded.radius(*heroes) / (NEAR * LEAST * tangent)
-            azimuth, elevation = view(recorded, away, LEVEL_DEG)
-            camera = viewpoints.follow(
-                heroes, azimuth_deg=(azimuth - 4.0, azimuth + 4.0), elevation_deg=elevation,
-                fill=NEAR * LEAST, lens_mm=LENS_MM, lag_s=0.18,
-            )  # fmt: skip
-        aperture = float(np.clip(LENS_MM**2 / (SOFT * 1000.0 * away), 1.4, 64.0))
-        camera = replace(camera, focus=focus, aperture=aperture)
-    return [(camera, {"until": end, "speed": float(speed)})]
+    return [(composed(recorded), {"until": settled(recorded), "speed": pace(recorded)})]
 
 
-def whole(recorded: Recorded, azimuth_deg: float, elevation_deg: float) -> tuple[viewpoints.Viewpoint, float]:
+def pace(recorded: Recorded) -> float:
+    """Recorded seconds in a second of film, with which the first showing is neither long nor over at once."""
+    end = settled(recorded)
+    speed = float(np.clip(end / LONGEST_S, 1.0, 50.0) * np.clip(end / SHORTEST_S, 0.2, 1.0))
+    return 1.0 if abs(speed - 1.0) < 0.2 else speed
+
+
+def composed(
+    recorded: Recorded, seen_from: tuple[float, float] | None = None, lens_mm: float = LENS_MM
+) -> viewpoints.Viewpoint:
+    """One shot that holds the whole event from its side (`view`), or from an azimuth and elevation, degrees: as near as its way allows.
+
+    What is far behind is soft. Where whom it happens to would be small in it, the camera goes along with them, near and level.
+    """
+    heroes = leads(recorded)
+    camera, away = whole(recorded, *(seen_from or view(recorded)), lens_mm)
+    if not heroes or len(recorded.movers) > CROWD:
+        return camera
+    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(lens_mm)) / 2))
+    if recorded.radius(*heroes) >= LEAST * away * tangent:
+        return replace(camera, focus=away, aperture=_soft(lens_mm, away))
+    return _near(recorded, heroes, seen_from, NEAR * LEAST, lens_mm)
+
+
+def close(
+    recorded: Recorded, seen_from: tuple[float, float] | None = None, large: float = 0.3, lens_mm: float = 85.0
+) -> viewpoints.Viewpoint:
+    """A shot of whom the event happens to, who take the share `large` of the picture's height where they are together."""
+    heroes = leads(recorded)
+    if not heroes:
+        return composed(recorded, seen_from, lens_mm)
+    return _near(recorded, heroes, seen_from, large, lens_mm)
+
+
+def _near(
+    recorded: Recorded, heroes: tuple[str, ...], seen_from: tuple[float, float] | None, large: float, lens_mm: float
+) -> viewpoints.Viewpoint:
+    """A camera that goes along with some, near, from their side and level, or as it is told."""
+    away = recorded.radius(*heroes) / (large * float(np.tan(np.radians(viewpoints.fovy_deg(lens_mm)) / 2)))
+    azimuth, elevation = seen_from or view(recorded, away, LEVEL_DEG)
+    return viewpoints.follow(
+        heroes, azimuth_deg=(azimuth - 4.0, azimuth + 4.0), elevation_deg=elevation,
+        fill=large, lens_mm=lens_mm, lag_s=0.18, focus=heroes[0], aperture=_soft(lens_mm, away),
+    )  # fmt: skip
+
+
+def _soft(lens_mm: float, away: float) -> float:
+    """The aperture with which what is far behind a thing so far away, m, is soft."""
+    return float(np.clip(lens_mm**2 / (SOFT * 1000.0 * away), 1.4, 64.0))
+
+
+def whole(
+    recorded: Recorded, azimuth_deg: float, elevation_deg: float, lens_mm: float = LENS_MM
+) -> tuple[viewpoints.Viewpoint, float]:
     """A camera that stands still, as near as the whole way of all that moves allows with what stands among it; and how far it is, m."""
     times = np.linspace(0.0, recorded.duration, 60)
     names = recorded.movers or recorded.bodies
@@ -71,22 +108,21 @@ def whole(recorded: Recorded, azimuth_deg: float, elevation_deg: float) -> tuple
         corners.append(
             (recorded.position(name, times)[:, None] + recorded.radius(name) * signs / 3**0.5).reshape(-1, 3)
         )
-    for name in beside(recorded):
-        middle, half = recorded.box(name)
-        corners.append(recorded.position(name, 0.0) + (middle + signs * half) @ recorded.orientation(name, 0.0).T)
+    corners += [recorded.outline(name) for name in beside(recorded)]
     points = np.concatenate(corners)
+    points[:, 2] = np.maximum(points[:, 2], recorded.floor_z)  # a box around a slanted thing reaches into the ground
     a, e = np.radians((azimuth_deg, elevation_deg))
     way = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
     across = np.array([-np.sin(a), np.cos(a), 0.0])
     axes = np.stack([across, np.cross(way, across), way])
     seen = points @ axes.T
     middle = 0.5 * (seen.min(axis=0) + seen.max(axis=0)) if len(seen) else np.zeros(3)
-    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(LENS_MM)) / 2))
+    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(lens_mm)) / 2))
     halves = np.array([tangent * recorded.size[0] / recorded.size[1], tangent])
     needed = (seen[:, 2] - middle[2])[:, None] + ROOM * np.abs(seen - middle)[:, :2] / halves
     away = max(float(needed.max(initial=0.0)), 0.05)
     target = middle @ axes
-    return viewpoints.still(tuple(target + away * way), tuple(target), lens_mm=LENS_MM), away
+    return viewpoints.still(tuple(target + away * way), tuple(target), lens_mm=lens_mm), away
 
 
 def beside(recorded: Recorded) -> tuple[str, ...]:

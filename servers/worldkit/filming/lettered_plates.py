@@ -29,7 +29,8 @@ class Labelled(Dressing):
         """A plate with one line of words, drawn only: `height` m high, as wide as they need, its middle at `pos` (m).
 
         It stands upright and faces `facing_deg`, the azimuth that the camera looks from, in the world or fixed `to` a body, in
-        whose frame its place and azimuth are then. It is called `name`, or by its words.
+        whose frame its place and azimuth are then. It is called `name`, or by its words; the
+        statement has these as it has captions.
 
         Raises:
             ProgramError: it has no words or more than 40 letters, or no height.
@@ -54,6 +55,7 @@ class Labelled(Dressing):
             title, front, np.array([(0, 1, 2), (0, 2, 3)]), uv=uv, pos=pos, yaw_deg=yaw, to=to,
             look=Surface(picture=picture, roughness=0.5),
         )  # fmt: skip
+        self._labels.append(words)
 
 
 def _written(words: str, colour: str, ink: str) -> np.ndarray:

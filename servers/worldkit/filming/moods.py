@@ -39,7 +39,7 @@ MOODS: dict[str, dict[str, dict[str, Any]]] = {
     },
     "high_key": {
         "light": {"azimuth_deg": -120.0, "elevation_deg": 55.0, "colour": "#ffffff", "strength": 0.75, "softness_deg": 8.0},
-        "sky": {"zenith": "#f2f4f6", "horizon": "#ffffff", "ground": "#e8e8e8", "glow": 0.0, "strength": 1.0},
+        "sky": {"zenith": "#f2f4f6", "horizon": "#ffffff", "ground": "#e8e8e8", "glow": 0.0, "strength": 1.0, "indoors": True},
         "grade": {"exposure_stops": 0.1, "contrast": 0.98, "saturation": 1.0, "vignette": 0.0},
     },
     "drama": {

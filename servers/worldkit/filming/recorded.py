@@ -146,7 +146,6 @@ class Recorded:
         known = (*self.bodies, *self._laws.names, *self._laws.shown_by)
         near = get_close_matches(str(body), known, n=3) or list(known[:6])
         raise ProgramError(f"no body is called {body!r}", "film.py", f"name one of: {', '.join(near) or '(none)'}")
-        return self.bodies.index(body)
 
     def position(self, body: str, at: float | np.ndarray) -> np.ndarray:
         """Centre of what is seen of a body (the box around its shapes) at some recorded times: (3,), or (N, 3), m.

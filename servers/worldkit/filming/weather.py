@@ -9,12 +9,20 @@ from .drawn_only import rgb
 from .film_bounds import COLOURS, FAR_M, LIGHT
 from .moods import MOODS
 
+PLAIN_SKY: dict[str, Any] = {
+    "sky_ground": "#6f6f6a", "sky_glow": 0.3, "sky_clouds": 0.0, "sky_stars": 0.0, "sky_strength": 1.0, "sky_indoors": False,
+}  # fmt: skip
+
 
 class Weather:
     """What a film's pictures are lit, hazed and developed by; everything that is not told stays as the setting has it."""
 
     def __init__(self) -> None:
         self._air: list[dict[str, Any]] = []
+
+    def _stated(self) -> dict[str, Any]:
+        """Light and sky that the plan states, by name."""
+        return {}
 
     def mood(self, name: str, *, at: float | None = None) -> None:
         """Light, sky, fog and grading that go together: one of `MOODS`."""
@@ -52,28 +60,53 @@ class Weather:
     def sky(
         self,
         *,
-        zenith: str,
-        horizon: str,
-        ground: str = "#6f6f6a",
-        glow: float = 0.3,
-        clouds: float = 0.0,
-        stars: float = 0.0,
-        strength: float = 1.0,
+        zenith: str | None = None,
+        horizon: str | None = None,
+        ground: str | None = None,
+        glow: float | None = None,
+        clouds: float | None = None,
+        stars: float | None = None,
+        strength: float | None = None,
+        indoors: bool | None = None,
         at: float | None = None,
     ) -> None:
         """A sky from `zenith` to `horizon` instead of the setting's surroundings; `ground` is what lies below the horizon.
 
-        `glow` around the light, `clouds` and `stars` go from 0 to 1; `strength` is how much it lights the scene.
+        `glow` around the light, `clouds` and `stars` go from 0 to 1; `strength` is how much it lights the scene. `indoors`: no
+        sky but the light of a room, and what bare metal mirrors of it has a window toward the key light.
+
+        Without `zenith` and `horizon`, what is given changes the sky that set, mood or plan told; without any it is that of noon.
         """
-        self._told(
-            at, sky_zenith=rgb(zenith), sky_horizon=rgb(horizon), sky_ground=rgb(ground), sky_glow=glow,
-            sky_clouds=clouds, sky_stars=stars, sky_strength=strength,
-        )  # fmt: skip
+        if (zenith is None) != (horizon is None):
+            raise ProgramError(
+                "a sky has the colours of its zenith and its horizon, or neither", "film.py", "give both"
+            )
+        own = {
+            "sky_ground": ground, "sky_glow": glow, "sky_clouds": clouds, "sky_stars": stars, "sky_strength": strength,
+            "sky_indoors": indoors,
+        }  # fmt: skip
+        whole: dict[str, Any] = {}
+        if zenith is not None and horizon is not None:
+            whole = PLAIN_SKY | {"sky_zenith": zenith, "sky_horizon": horizon}
+        elif not any("sky_zenith" in told for told in self._air):
+            stated = self._stated()
+            noon = {f"sky_{name}": value for name, value in MOODS["noon"]["sky"].items()}
+            whole = (
+                {n: v for n, v in stated.items() if n.startswith("sky_")}
+                if "sky_zenith" in stated
+                else PLAIN_SKY | noon
+            )
+        found = whole | {name: value for name, value in own.items() if value is not None}
+        told = {n: rgb(v) if n in COLOURS and isinstance(v, str) else v for n, v in found.items()}
+        self._told(at, **told)
 
     def fog(
         self, *, colour: str = "#d8dde0", visibility_m: float, height_m: float | None = None, at: float | None = None
     ) -> None:
-        """Air that hides what is far: 95 % of what is `visibility_m` away; thinner by half every `height_m` above the ground."""
+        """Air that hides what is far: 95 % of what is `visibility_m` away; thinner by half every `height_m` above the ground.
+
+        Without a height it is as thick all over; the sky keeps its colour above a haze at the horizon, unless one sees less than 200 m.
+        """
         if not visibility_m > 0 or (height_m is not None and not height_m > 0):
             raise ProgramError("fog needs a visibility and a height above zero", "film.py", "visibility_m=30, say")
         self._told(at, fog_rgb=rgb(colour), fog_density=3.0 / visibility_m, fog_height_m=height_m or 1e6)

@@ -15,7 +15,7 @@ from typing import Any
 
 from ..errors import IntakeError
 from ..files import write_json
-from . import kept_sculpt, moving_parts, stillness, taken_in, unpacked
+from . import as_glb, kept_sculpt, moving_parts, stillness, taken_in, unpacked
 
 ON = "name another --up if it is another side that is down"
 
@@ -51,7 +51,10 @@ def _take_in(given: Path, asked: dict[str, Any], scratch: Path, out: Path) -> No
         file = unpacked.the_mesh(file, file.name)
     elif file.suffix.lower() in unpacked.ARCHIVES:
         file = unpacked.unpack(file, scratch / "unpacked")
-    finish(*taken_in.take_in(file, asked), scratch, out)
+    glb, said = as_glb.written(file, scratch / "as_glb")
+    files, facts = taken_in.take_in(glb, as_glb.axes(file, asked))
+    facts["mended"] += said
+    finish(files, facts, scratch, out)
 
 
 def finish(

@@ -15,6 +15,8 @@ from . import collada_claims
 
 USD = (".usd", ".usda", ".usdc")
 SUFFIXES = (".glb", ".obj", ".stl", ".ply", ".off", ".dae", *USD)
+FIRST_AS_GLB = (".gltf", ".3mf")
+"""What becomes a GLB file before anything else is asked of it: `as_glb`."""
 PICTURES = (".png", ".jpg", ".jpeg")
 MOST_BYTES = 512 << 20
 MOST_FACES = 2_000_000
@@ -47,7 +49,7 @@ def check(path: Path) -> int:
         ".glb": _glb, ".obj": _obj, ".stl": _stl, ".ply": _ply, ".off": _off, ".dae": _dae, **dict.fromkeys(USD, _usd),
     }.get(path.suffix.lower())  # fmt: skip
     if reader is None:
-        known = ", ".join(SUFFIXES)
+        known = ", ".join((*SUFFIXES, *FIRST_AS_GLB))
         raise IntakeError(
             "unknown_format", f"{path.suffix or 'no ending'} is none of {known}", path.name, "convert it to one of them"
         )

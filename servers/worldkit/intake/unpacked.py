@@ -12,11 +12,12 @@ from pathlib import Path, PurePath, PurePosixPath
 from typing import Any
 
 from ..errors import IntakeError
-from .declared_sizes import MOST_BYTES, PICTURES, SUFFIXES, USD
+from .declared_sizes import FIRST_AS_GLB, MOST_BYTES, PICTURES, SUFFIXES, USD
 
 TARS = (".tar", ".tgz", ".gz", ".xz", ".bz2")
 ARCHIVES = (".zip", ".usdz", *TARS)
-WANTED = (*SUFFIXES, ".mtl", *PICTURES)
+MESHES = (*SUFFIXES, *FIRST_AS_GLB)
+WANTED = (*MESHES, ".mtl", ".bin", *PICTURES)
 MOST_FILES, MOST_MEMBERS = 2_000, 50_000
 BROKEN = (
     zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, OSError, RuntimeError, NotImplementedError, EOFError,
@@ -24,7 +25,7 @@ BROKEN = (
 )  # fmt: skip
 """What reading a broken archive raises."""
 CHUNK = 1 << 20
-FIRST = (".glb", ".usdc", ".usd", ".usda", ".dae", ".obj", ".ply", ".off", ".stl")
+FIRST = (".glb", ".gltf", ".usdc", ".usd", ".usda", ".dae", ".3mf", ".obj", ".ply", ".off", ".stl")
 """Of one mesh in several formats, the one that says most."""
 
 
@@ -120,9 +121,9 @@ def the_mesh(folder: Path, name: str) -> Path:
         IntakeError: there is none, or there are several.
     """
     below = (path for path in folder.rglob("*") if not _shadow(path.relative_to(folder)))
-    found = sorted(path for path in below if path.suffix.lower() in SUFFIXES and path.is_file())
+    found = sorted(path for path in below if path.suffix.lower() in MESHES and path.is_file())
     if not found:
-        raise IntakeError("no_mesh", f"there is no mesh in it ({', '.join(SUFFIXES)})", name, "name the file itself")
+        raise IntakeError("no_mesh", f"there is no mesh in it ({', '.join(MESHES)})", name, "name the file itself")
     if len({path.stem.lower() for path in found}) > 1:
         told = ", ".join(path.relative_to(folder).as_posix() for path in found[:8])
         raise IntakeError(

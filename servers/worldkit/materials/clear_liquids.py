@@ -9,7 +9,7 @@ import re
 
 from .look import Look
 
-_NAME = re.compile(r"clear (#[0-9a-fA-F]{6})(?: ([0-9]{1,4}) ?mm)?")
+_NAME = re.compile(r"clear[ _](#[0-9a-fA-F]{6})(?:[ _]([0-9]{1,4}) ?mm)?")
 DEPTH_MM = 10.0
 DARKEST = 0.002
 """Of light that comes through at the depth that is told: below that no eye tells colours apart."""

@@ -19,10 +19,12 @@ from .moulded import Moulded
 from .sands import Sand
 from .snows import Snow
 from .soft_solids import clay, foam
+from .stirred import Stirred
+from .stirred_vessels import Vessel
 
 
 def compile_all() -> None:
-    """Step a few points of each kind on a floor, small soft cubes, and a small skin."""
+    """Step a few points of each kind on a floor, small soft cubes, a cup of water, and a small skin."""
     model = mujoco.MjModel.from_xml_string('<mujoco><worldbody><geom type="plane" size="1 1 1"/></worldbody></mujoco>')
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
@@ -34,6 +36,10 @@ def compile_all() -> None:
         soft = Moulded(solid, box((0.03, 0.03, 0.03)), (0, 0, 0.015), 0.015)
         soft.start(model, data)
         soft.step(model, data, 0.001)
+    cup = Vessel([(0.0, 0.0), (0.04, 0.0), (0.04, 0.1)])
+    turned = Stirred(cup, 0.05, dye=lambda places: 0.5 + 0 * places[:, :1])
+    turned.start(model, data)
+    turned.step(model, data, 0.001)
     skin = Membrane(ball(0.05, (0, 0, 0.05), finer=1), Wall(1e6, 2.5e-4, 950.0, stretched=2.0), Gas(hole=0.005))
     skin.start(model, data)
     skin.step(model, data, 0.001)

@@ -20,6 +20,10 @@ FARTHEST = 0.6
 """Sides of a cell by which a node is brought to the surface; what is farther away stays."""
 NEAR = 4
 """Cells that are tried for a corner of the skin."""
+HALVED = 8
+"""How often they go back by a half, before they stay on their cubes."""
+MOST_IN_BOX = 2e5
+"""Cells of the box around a shape, of which a lattice keeps those that lie in it."""
 LEAST = 0.1
 """No point of a cell keeps less than this share of a cube's room: its corners go back until it does."""
 
@@ -55,8 +59,12 @@ def filled(shape: Shape, cell: float, name: str) -> Lattice:
     """Fill a shape with cells of about this side, m.
 
     Raises:
-        ProgramError: no cell fits.
+        ProgramError: no cell fits, or too many do.
     """
+    if (inside_box := float(np.prod(shape.size / cell))) > MOST_IN_BOX:
+        enough = cell * (inside_box / MOST_IN_BOX) ** (1 / 3)
+        cause = f"cells of {cell:g} m would be {inside_box:.3g} in the box of {name}, more than {MOST_IN_BOX:g}"
+        raise ProgramError(cause, name, f"make them {enough * 1.02:.2g} m")
     counts = np.maximum(np.round(shape.size / cell), 1).astype(int)
     sides = shape.size / counts
     grid = np.stack(np.meshgrid(*(np.arange(n) for n in counts), indexing="ij"), -1).reshape(-1, 3)
@@ -90,12 +98,10 @@ def _snapped(shape: Shape, nodes: Array, cells: Array, outer: Array, side: float
     move = np.zeros_like(nodes)
     move[outer] = np.where(np.abs(away) < FARTHEST * side, -away, 0.0)[:, None] * down
     least = LEAST * side**3 / 8
-    for _ in range(8):
-        crushed = cells[(_measured(nodes + move, cells)[1] < least).any(axis=1)]
-        if not len(crushed):
-            return nodes + move
-        move[np.unique(crushed)] *= 0.5
-    move[np.unique(crushed)] = 0.0
+    halved = 0
+    while len(crushed := cells[(_measured(nodes + move, cells)[1] < least).any(axis=1)]):
+        move[np.unique(crushed)] *= 0.5 if halved < HALVED else 0.0  # cubes are never crushed
+        halved += 1
     return nodes + move
 
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import ProgramError
-from ..sculpt.marching import evaluated, surface
+from ..sculpt.marching import MOST_CELLS, evaluated, surface
 from ..sculpt.signed import Shape
 from .beforehand import MOST_POINTS, check_positive, check_work
 from .body_motion import BodyMotion
@@ -35,9 +35,13 @@ WALL, WALL_YIELDING = 5.0, 600.0
 as nothing presses much harder on what yields."""
 COURANT = 0.35
 STILL = 1e-3
-"""m/s: a body that goes slower than this wakes nothing."""
-SLOWEST, FADES = 2e-4, 0.1
-"""Of the speed of sound in it: slower than this it lies still; and how much a question's forces count for their mean."""
+"""m/s: a body that goes slower than this wakes nothing, until it has gone `CREPT` of a cell."""
+CREPT = 1e-3
+SLOWEST, CALM, FADES = 2e-4, 20, 0.1
+"""Of the speed of sound in it: slower than this for so many questions, and borne, it lies still; how much a question's forces count for
+their mean."""
+BORNE = 0.5
+"""The share of its weight by which what bears it may be off."""
 LOOK_AGAIN = 8
 """Steps after which a node looks for its walls again."""
 
@@ -77,6 +81,9 @@ class Moulded:
         place, drawn = np.asarray(at, float), skin or shape
         self.stuff, self._lattice = stuff, filled(shape, cell, self.name)
         cells = max(8, int(np.ceil(float(drawn.size.max()) / (grain or cell / 3))))
+        if cells > MOST_CELLS:
+            cause = f"the skin of {self.name} would have {cells} cells along its longest side, more than {MOST_CELLS}"
+            raise ProgramError(cause, self.name, f"give it a `grain` of {float(drawn.size.max()) / MOST_CELLS:.2g} m")
         made = surface(drawn, cells)
         self.triangles, corners = np.asarray(made.faces, int), np.asarray(made.vertices, float)
         most = MOST_POINTS - len(self._lattice.nodes)
@@ -91,6 +98,10 @@ class Moulded:
         self._kept = np.zeros((*self._lattice.room.shape, 6))
         self._kept[..., :3] = 1.0
         self._stored, self._force = 0.0, np.zeros_like(self._x)
+        self._asked = self._reckoned = self._calm = 0
+        """Questions: in all, those that were reckoned, and how many of the last it was calm in."""
+        self._lay: Array | None = None
+        """Where the geoms were when it came to lie still."""
         self.mass = np.concatenate([np.zeros(len(corners)), self._mass])
         if paint is not None:
             told = np.clip(np.asarray(paint(corners, -evaluated(shape, corners)), float), 0.0, 1.0)
@@ -135,8 +146,10 @@ class Moulded:
         lattice, stuff, (lam, mu) = self._lattice, self.stuff, self.stuff.lame
         self._geoms.place(data)
         bodies, push = self._motion.now(data, seconds), np.zeros((len(self.bodies), 6))
+        self._asked += 1
         if self._rests(bodies, seconds):
             return self._lies()
+        self._reckoned, self._lay = self._reckoned + 1, None
         before, parts = bodies[:, 3:].copy(), max(1, int(np.ceil(seconds / self.longest - 1e-9)))
         h, eta = seconds / parts, stuff.damping * stuff.young
         left = float(np.exp(-h / stuff.creeps)) if stuff.creeps else 1.0
@@ -150,20 +163,25 @@ class Moulded:
                 eta, self._force,
             )  # fmt: skip
             self._stored += touched(
-                self._x, self._v, self._mass, lattice.outer, lattice.area, self._planes, self._walls, self._near, self._held, bodies, self._stiff,
-                stuff.wall_friction, h, self._force, push,
+                self._x, self._v, self._mass, lattice.outer, lattice.area, self._planes, self._walls, self._near, self._held,
+                bodies, self._stiff, stuff.wall_friction, h, self._force, push,
             )  # fmt: skip
             moved(self._x, self._v, self._mass, self._pull, self._force, h)
             self._motion.carry(bodies, before, push, (part + 1) * h)
-        if not np.isfinite(self._x).all() or np.ptp(self._x, axis=0).max() > 20 * float(self._lattice.nodes.max()):
+        if not np.isfinite(self._x).all() or np.ptp(self._x, axis=0).max() > 20 * np.ptp(lattice.nodes, axis=0).max():
             cause = f"the cells of {self.name} turn inside out"
             raise ProgramError(
                 cause, self.name, "squeeze it less or more slowly, or tell its Solid a smaller `down_to`"
             )
         self._motion.felt = push / seconds
+        self._calm = self._calm + 1 if float(np.abs(self._v).max()) < SLOWEST * self._sound else 0
         self._mean += FADES * (self._motion.felt - self._mean)
         self._tell()
         return self._motion.felt.copy()
+
+    def grows(self, first_s: float, whole_s: float) -> float:  # noqa: ARG002
+        """How many times as much it costs, at most, as so far: as if it never lay still again."""
+        return max(1.0, self._asked / max(self._reckoned, 1))
 
     def energy(self) -> float:
         """J stored in strain and in its walls."""
@@ -177,16 +195,21 @@ class Moulded:
         return float((np.linalg.det(f) * self._lattice.room).sum())
 
     def _rests(self, bodies: Array, seconds: float) -> bool:
-        """Whether it lies still, and nothing that moves is near: then nothing is reckoned."""
-        if float(np.abs(self._v).max()) > SLOWEST * self._sound or not self._mean.any():
+        """Whether it lies still on what bears it, and nothing near moves, or has crept on since: then nothing is reckoned."""
+        weight = self._mass.sum() * self._pull
+        off = float(np.linalg.norm(self._mean[:, :3].sum(axis=0) - weight))
+        if self._calm < CALM or not off < BORNE * float(np.linalg.norm(weight)):
             return False
-        low, high = self._x.min(axis=0), self._x.max(axis=0)
+        low, high, near = self._x.min(axis=0), self._x.max(axis=0), []
         for row, body in enumerate(bodies):
             speed = float(np.linalg.norm(body[3:6]) + np.linalg.norm(body[6:]) * self._wide[row])
             away = np.linalg.norm(np.maximum(np.maximum(low - body[:3], body[:3] - high), 0.0)) - self._wide[row]
-            if speed > STILL and away < 2 * self._lattice.cell + speed * seconds:
-                return False
-        return True
+            if away < 2 * self._lattice.cell + speed * seconds:
+                near.append(row)
+                if speed > STILL:
+                    return False
+        self._lay = self._geoms.poses if self._lay is None else self._lay
+        return self._geoms.gone(self._lay, near) < CREPT * self._lattice.cell
 
     def _lies(self) -> Array:
         """What it gives its bodies while it lies still: what it gave them on the mean, so corrected that it bears its weight."""

@@ -9,7 +9,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..errors import ProgramError
 from .beforehand import check_positive
+
+WIDEST = 0.45
+"""The largest Poisson's ratio."""
 
 
 @dataclass(frozen=True)
@@ -19,7 +23,7 @@ class Solid:
     Args:
         density: kg/m^3, as it lies.
         young: Pa, of small strains.
-        poisson: 1, at most 0.45: how much it widens when it is pressed; foam 0.1, rubber 0.45.
+        poisson: 1, 0 to 0.45: how much it widens when it is pressed; foam 0.1, rubber 0.45.
         yields: Pa, von Mises' stress above which it keeps its new shape; None: it always springs back.
         creeps: s: how soon what is above a seventh of `yields` gives way, so that it resists a blow more than a hand that leans on it, and
             a ball soon lies still in it; 0: never.
@@ -39,10 +43,13 @@ class Solid:
 
     def __post_init__(self) -> None:
         """Refuse what nothing can be (`ProgramError`)."""
-        check_positive(
-            "a solid", density=self.density, young=self.young, yields=self.yields, down_to=self.down_to,
-            **{"poisson below 0.45, the difference": 0.4501 - self.poisson},
-        )  # fmt: skip
+        check_positive("a solid", density=self.density, young=self.young, yields=self.yields, down_to=self.down_to)
+        if not 0 <= self.poisson <= WIDEST:
+            cause = f"a solid has a Poisson's ratio, `poisson`, of {self.poisson:g}"
+            raise ProgramError(cause, "worldkit.matter", f"give 0 to {WIDEST}: beyond it the cells lock")
+        if not (self.down_to < 1 and min(self.creeps, self.damping, self.wall_friction) >= 0):
+            cause = f"a solid creeps in {self.creeps:g} s, is damped by {self.damping:g} s, rubs by {self.wall_friction:g}, is pressed to {self.down_to:g}"
+            raise ProgramError(cause, "worldkit.matter", "give 0 and more, and a `down_to` below 1")
 
     @property
     def lame(self) -> tuple[float, float]:

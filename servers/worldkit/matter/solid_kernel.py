@@ -18,6 +18,20 @@ DAMPED = 0.6
 
 
 @kernel
+def slope(values, cell, slopes, out):
+    """Write how values (n, 3) of a cell's nodes change with place, by slopes (8, 3), into out (3, 3)."""
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = 0.0
+    for k in range(8):
+        n = cell[k]
+        for j in range(3):
+            s = slopes[k, j]
+            for i in range(3):
+                out[i, j] += values[n, i] * s
+
+
+@kernel
 def pulled(x, v, cells, slopes, room, kept, lam, mu, most, left, eta, force):
     """Add to force (n, 3), N, what strain makes of it; returns J stored. kept (c, 8, 6): inverse right Cauchy-Green of what yielded.
 
@@ -31,15 +45,7 @@ def pulled(x, v, cells, slopes, room, kept, lam, mu, most, left, eta, force):
         mean_swell, whole = 0.0, 0.0
         for p in range(8):
             f = all_f[p]
-            for i in range(3):
-                for j in range(3):
-                    f[i, j] = 0.0
-            for k in range(8):
-                n = cells[c, k]
-                for j in range(3):
-                    s = slopes[c, p, k, j]
-                    for i in range(3):
-                        f[i, j] += x[n, i] * s
+            slope(x, cells[c], slopes[c, p], f)
             swells[p] = max(
                 f[0, 0] * (f[1, 1] * f[2, 2] - f[1, 2] * f[2, 1])
                 - f[0, 1] * (f[1, 0] * f[2, 2] - f[1, 2] * f[2, 0])
@@ -52,15 +58,7 @@ def pulled(x, v, cells, slopes, room, kept, lam, mu, most, left, eta, force):
         for p in range(8):
             f = all_f[p]
             if eta > 0.0:
-                for i in range(3):
-                    for j in range(3):
-                        g[i, j] = 0.0
-                for k in range(8):
-                    n = cells[c, k]
-                    for j in range(3):
-                        s = slopes[c, p, k, j]
-                        for i in range(3):
-                            g[i, j] += v[n, i] * s
+                slope(v, cells[c], slopes[c, p], g)
             for i in range(3):
                 for j in range(3):
                     i1, i2, j1, j2 = (i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3
@@ -87,9 +85,8 @@ def pulled(x, v, cells, slopes, room, kept, lam, mu, most, left, eta, force):
                     0.5 * mu * (a[0, 0] + a[1, 1] + a[2, 2] - 3.0 - 2.0 * swell) + 0.5 * lam * swell * swell
                 )
             else:
-                even = (mean_swell / swollen) ** (
-                    2.0 / 3.0
-                )  # what flows without a change of volume would lock a cell (F-bar)
+                # F-bar: what flows without a change of volume would lock a cell.
+                even = (mean_swell / swollen) ** (2.0 / 3.0)
                 for i in range(3):
                     for j in range(3):
                         a[i, j] *= even
@@ -157,20 +154,17 @@ def touched(x, v, mass, outer, area, planes, walls, near, held, bodies, stiff, r
             plane = planes[m, w]
             b = bodies[walls[m, w]]
             rx, ry, rz = x[n, 0] - b[0], x[n, 1] - b[1], x[n, 2] - b[2]
-            plane[3] += h * (
+            comes = (
                 plane[0] * (b[3] + b[7] * rz - b[8] * ry)
                 + plane[1] * (b[4] + b[8] * rx - b[6] * rz)
                 + plane[2] * (b[5] + b[6] * ry - b[7] * rx)
             )
+            plane[3] += h * comes
             deep = plane[3] - plane[0] * x[n, 0] - plane[1] * x[n, 1] - plane[2] * x[n, 2]
             if deep > 0.0:
                 spring = stiff * area[m]
                 stored += 0.5 * spring * deep * deep
-                leaves = (
-                    plane[0] * (v[n, 0] - b[3] - (b[7] * rz - b[8] * ry))
-                    + plane[1] * (v[n, 1] - b[4] - (b[8] * rx - b[6] * rz))
-                    + plane[2] * (v[n, 2] - b[5] - (b[6] * ry - b[7] * rx))
-                )
+                leaves = plane[0] * v[n, 0] + plane[1] * v[n, 1] + plane[2] * v[n, 2] - comes
                 size = max(spring * deep - DAMPED * np.sqrt(spring * mass[n]) * leaves, 0.0)  # it pulls at nothing
                 given(n, rx, ry, rz, plane[0], plane[1], plane[2], size, h, force, push[walls[m, w]])
                 if deep > deepest:

@@ -118,6 +118,11 @@ class Geoms:
             self.poses[mine, :3] = body[:3] + seconds * body[3:6] + (self.poses[mine, :3] - body[:3]) @ turn.T
             self.poses[mine, 3:] = (turn @ self.poses[mine, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
 
+    def gone(self, since: Array, rows: Sequence[int]) -> float:
+        """m: the most that any place of a geom of some bodies has moved since all had these poses, (g, 12)."""
+        mine = np.isin(self.owners, rows)
+        return moved(since[mine], self.poses[mine], self._boxes[mine])
+
     def sort(self, low: Array, high: Array, margin: float) -> None:
         """List, for each cell of the room from `low` to `high`, the geoms that come within `margin` of it, unless lists still stand."""
         low, high = np.asarray(low, float), np.asarray(high, float)

@@ -16,6 +16,8 @@ from .figure import Part, add, assemble, dress
 from .foliage import Leaf, leaf
 from .following import along, share_along, skin
 from .from_files import from_file
+from .hand_bodies import hand_parts
+from .hands import hand
 from .minting import Made, made
 from .primitives import box, capsule, cylinder, ellipsoid, half_space, round_cone, sphere, torus
 from .profiles import extruded, revolved
@@ -24,6 +26,6 @@ from .tubing import strap, tube
 
 __all__ = [
     "Leaf", "Made", "Part", "Shape", "add", "along", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference", "dress",
-    "ellipsoid", "extruded", "from_file", "half_space", "intersection", "leaf", "linear", "made", "noise", "radial", "repeat", "revolved",
+    "ellipsoid", "extruded", "from_file", "half_space", "hand", "hand_parts", "intersection", "leaf", "linear", "made", "noise", "radial", "repeat", "revolved",
     "rough", "round_cone", "share_along", "skin", "sphere", "strap", "torus", "tube", "twist", "union",
 ]  # fmt: skip

@@ -36,6 +36,12 @@ def surface(shape: Shape, cells: int = CELLS) -> Skin:
     Raises:
         ValueError: cells out of 8 to 400, or the shape has no surface in its box.
     """
+    vertices, faces, step = bare(shape, cells)
+    return Skin(vertices, gradients(shape, vertices, step), faces)
+
+
+def bare(shape: Shape, cells: int) -> tuple[Array, Array, float]:
+    """The vertices (V, 3), m, and faces (F, 3) of `surface`, and the side of a cell, m: without normals, which take half the time."""
     from skimage.measure import marching_cubes
 
     if not 8 <= cells <= MOST_CELLS:
@@ -55,7 +61,7 @@ def surface(shape: Shape, cells: int = CELLS) -> Skin:
     vertices = origin + points * step
     if _signed_volume(vertices, faces) < 0:
         faces = faces[:, ::-1]
-    return Skin(vertices, gradients(shape, vertices, step), np.ascontiguousarray(faces))
+    return vertices, np.ascontiguousarray(faces), step
 
 
 def _field(shape: Shape, origin: Array, step: float, blocks: Array) -> tuple[Array, Array]:

@@ -130,7 +130,8 @@ alone: read the descriptions of steps and objects, the laws of interventions, an
 your memory. Never edit the plan; if it cannot be built as it stands, say which line and why. A coordinate that it rounds by less
 than 0.2 mm you may write exactly, with a comment. Then `stamp.go` until it waits for the description: it lints, simulates, measures and films, and tells all that is wrong
 together. Mend what it names first, where the program and not the plan is wrong; after three patches that did not help,
-leave it. Once the claims hold (`until`), write `film.py` (skill `film`): one composed shot, light, a set, dressing; look at all by `stage.frames` (`show: shots`).
+leave it. Once the claims hold (`until: expect`), look at the film that `stamp.go` drew roughly of the drafted `film.py`, and make it yours (skill
+`film`): one composed shot, light, a set, dressing; see each change move by `stage.frames` (`show: moving`, then `shots`).
 Modules and data may lie beside the program (`*.py`, `sculpt/`, `laws/`, `data/`): what it imports or names by its path belongs to it. A file that the plan names (`sculpt/`, `laws/`) came with
 it: change it only if told to. When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.

@@ -32,7 +32,7 @@ class Found:
     takes: tuple[str, ...]
     """What the class must be given."""
     skin: bool
-    """It knows its own surface before it starts: `points` and `triangles`, as `worldkit.skins.Skin` and `worldkit.matter.Moulded` do."""
+    """It knows its own surface before it starts: `points` and `triangles`, as `worldkit.skins.Skin`, and `Moulded` and `Stirred` of `worldkit.matter` do."""
     grains: bool
     """It is a `worldkit.matter.Matter`, which knows its points, and how large each is drawn."""
     unknown: str = ""
@@ -141,7 +141,7 @@ def _found(plan: Plan, row: Intervention) -> Found | None:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
         and isinstance(node.value, ast.Call) and ast.unparse(node.value.func) == kind.name
     ]  # fmt: skip
-    skin = not {"Skin", "Moulded"}.isdisjoint(bases) or any(
+    skin = not {"Skin", "Moulded", "Stirred"}.isdisjoint(bases) or any(
         ast.unparse(target) == "self.triangles" for target in _assigned(kind)
     )
     made_one = made[0] if len(made) == 1 else ""

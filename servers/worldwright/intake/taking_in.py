@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from worldkit.files import write_json
 from worldkit.intake import unpacked
-from worldkit.intake.declared_sizes import MOST_BYTES, PICTURES, SUFFIXES, USD
+from worldkit.intake.declared_sizes import MOST_BYTES, PICTURES, USD
 
 from ..model.errors import JobError, NotFoundError
 from ..model.frozen import Frozen
@@ -37,7 +37,12 @@ FILES = (ENTRY, "look_*.obj", "hull_*.obj", "picture_*.png", "moving.xml", "part
 WORLD = ("world.mjz", "program.json")
 PASSED = ("height", "units", "up", "front", "mass", "extents", "rotation", "built_up")
 """What the confined process is asked as it stands."""
-BELONGING = {".obj": (".mtl", *PICTURES), ".dae": PICTURES, **dict.fromkeys(USD, (*USD, *PICTURES))}
+BELONGING = {
+    ".obj": (".mtl", *PICTURES),
+    ".dae": PICTURES,
+    ".gltf": (".bin", *PICTURES),
+    **dict.fromkeys(USD, (*USD, *PICTURES)),
+}
 """What a file of a format may read of what lies beside it: materials, pictures, other layers."""
 AGAIN = "worldwright asset add FILE"
 
@@ -89,7 +94,7 @@ def add(
     """Take in a mesh file as an asset.
 
     Args:
-        file: GLB, OBJ, STL, PLY, OFF, COLLADA or USD; materials, pictures and layers are looked for beside it. Or a folder
+        file: GLB, glTF, OBJ, STL, PLY, OFF, COLLADA, 3MF or USD; materials, pictures and layers are looked for beside it. Or a folder
             or a .zip with one such mesh, or the key of an offer of a packaged library.
         asked: any of `key`, `category`, `description`, `licence`, `creator`, `source`, `material`, `height`, `units`, `up`,
             `front`, `mass`.
@@ -105,6 +110,8 @@ def add(
     """
     offer = libraries.offers().get(str(file)) if not file.exists() else None
     if offer is not None:
+        if offer.whole:
+            _unasked(offer.key, asked)  # before it is made, which takes seconds
         with tempfile.TemporaryDirectory(prefix="worldwright-offer-") as folder:
             laid, told = libraries.SEAM.find(offer.library).lay(offer.key, Path(folder))
             if laid.name == ENTRY:
@@ -115,9 +122,18 @@ def add(
     if not file.is_file() and not file.is_dir():
         raise NotFoundError(
             f"there is no file {file.name}, and no library offers it", place=str(file),
-            next_move=f"name one of {', '.join(SUFFIXES)}, or a key that `worldwright retrieve find-asset WORDS` tells",
+            next_move=f"name one of {', '.join(unpacked.MESHES)}, or a key that `worldwright retrieve find-asset WORDS` tells",
         )  # fmt: skip
     return _added(file, asked, to, replace, progress)
+
+
+def _unasked(key: str, asked: dict[str, Any]) -> None:
+    """Refuse what is asked of an asset that is whole."""
+    if asked:
+        raise IntakeFailedError(
+            f"{key} is an asset as it is, with its own {', '.join(sorted(asked))}", code="decided", place=key,
+            next_move=f"worldwright asset add {key}; a plan's `asset_dimensions` gives it another height",
+        )  # fmt: skip
 
 
 def _whole(laid: Path, asked: dict[str, Any], to: Destination, replace: bool, progress: Progress) -> Illustrated:
@@ -127,11 +143,7 @@ def _whole(laid: Path, asked: dict[str, Any], to: Destination, replace: bool, pr
         IntakeFailedError: something is asked that its maker has decided.
         RegisterError: the key is taken.
     """
-    if asked:
-        raise IntakeFailedError(
-            f"{laid.name} is an asset as it is, with its own {', '.join(sorted(asked))}", code="decided", place=laid.name,
-            next_move=f"worldwright asset add {laid.name}; a plan's `asset_dimensions` gives it another height",
-        )  # fmt: skip
+    _unasked(laid.name, asked)
     root = registering.root_of(to)
     registering.free(laid.name, root, replace)
     files = {path.name: path.read_bytes() for path in laid.iterdir() if path.is_file()}

@@ -9,6 +9,8 @@ from pathlib import Path
 
 from .frozen import Frozen
 
+FILM_NAME = "moving.mp4"
+
 
 @dataclass(frozen=True)
 class Picture:
@@ -27,6 +29,8 @@ class Illustrated:
     pictures: tuple[Picture, ...] = ()
     folder: Path | None = None
     """Where the pictures lie already, by their `file_name`."""
+    film: bytes = b""
+    """A film that goes with them (MP4), which lies in `folder` as `FILM_NAME` where they are kept."""
 
 
 def file_name(number: int, picture: Picture) -> str:

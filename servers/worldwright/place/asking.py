@@ -117,7 +117,11 @@ def simulate(
                 stdout=subprocess.DEVNULL,
                 stderr=errors,
                 cwd=folder,  # the engine may leave a log file where it runs
-                env={**os.environ, "PYTHONPATH": paths},
+                env={
+                    **os.environ,
+                    "PYTHONPATH": paths,
+                    "MUJOCO_GL": "disable",
+                },  # it draws nothing, and loads no OpenGL
             )
             _follow(process, out.with_suffix(".progress"))
         if not out.is_file():

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.files import write_atomic
 
+from ..model import printable
 from ..model.evidence.run import Run
 from ..shelf import Entry, failed
 from . import chart, media
@@ -27,7 +28,11 @@ def write(run: Run) -> Path:
 
 
 def render(material: Material) -> str:
-    """The whole page as HTML."""
+    """The whole page as HTML.
+
+    No sign in it turns the direction of reading or hides what follows, whoever wrote the words and however, by an entity too: it is
+    written out.
+    """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
@@ -40,7 +45,7 @@ def render(material: Material) -> str:
     environment.filters |= {"quantity": chart.quantity, "seconds": _seconds, "clock": _clock, "plain": _plain}
     shared = _context(material)
     sections = [_section(environment, entry, material, shared) for entry in SECTIONS.values()]
-    return environment.get_template("page.html").render(**shared, sections=sections)
+    return printable.words(environment.get_template("page.html").render(**shared, sections=sections))
 
 
 def _section(environment: "Environment", entry: Entry, material: Material, shared: dict[str, Any]) -> str:

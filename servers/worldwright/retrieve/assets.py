@@ -7,6 +7,7 @@ from contextlib import suppress
 from difflib import SequenceMatcher
 from functools import lru_cache
 from math import log10
+from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from worldkit.robots import packaged
@@ -39,6 +40,8 @@ LEAST_OF_MEANING = 0.01
 """The score of what fits by meaning alone is its cosine times this, so that any word comes first."""
 LATER, LAST = 0.5, 4.0
 """Words that an offer of a library is put behind an asset that is there: one that was looked at and chosen, and any other."""
+FRESH_S = 1.0
+"""So long the texts of known assets are not looked at for changes: of ten thousand that is half of what a question costs."""
 MOST_KNOWN = 200
 """Keys that are told when nothing fits, and assets that are told by meaning."""
 
@@ -95,7 +98,7 @@ class _Known:
         self.wanted = (tuple(sources.items()), tuple(offers), tuple(robots))
         held = list(assets.entries())
         self._paths = tuple((f"{asset.folder}/asset.yaml", f"{asset.folder}/{asset.key}.yaml") for asset in held)
-        self.stamps = self._stamps()
+        self.stamps, self._looked = self._stamps(), monotonic()
         self.rows: list[AssetHit] = []
         self.texts: list[str] = []
         self._own: dict[str, set[int]] = defaultdict(set)
@@ -123,9 +126,15 @@ class _Known:
             self._other[word].add(number)
 
     def stands(self, sources: dict[str, str], offers: "dict[str, Offer]") -> bool:
-        """Whether nothing was added, removed or written anew since it was read."""
+        """Whether nothing was added or removed since it was read, nor, as of at most `FRESH_S` ago, written anew."""
         now = (tuple(sources.items()), tuple(offers), tuple(packaged.found()))
-        return self.wanted == now and self.stamps == self._stamps()
+        if self.wanted != now:
+            return False
+        if monotonic() - self._looked < FRESH_S:
+            return True
+        kept = self.stamps == self._stamps()
+        self._looked = monotonic()
+        return kept
 
     def _stamps(self) -> tuple[int, ...]:
         """When the text that describes each asset was written last; 0 where it is gone."""
@@ -176,12 +185,14 @@ class _Known:
         near = _vectors(tuple(self.texts)) @ encode_plainly([query])[0]
         order = near.argsort()[::-1][:MOST_KNOWN]
         found = [(int(number), float(near[number])) for number in order if near[number] >= MEANT]
-        if not found and not named and near[order[0]] >= LIKELY:
-            rivals = (
-                float(near[number]) for number in order[1:] if self.rows[number].taken_in
-            )  # what is only offered is none
-            second = next(rivals, 0.0)
-            found = [(int(order[0]), float(near[order[0]]))] if near[order[0]] - second >= AHEAD else []
+        if not found and not named:
+            here = [
+                number for number in order if self.rows[number].taken_in
+            ]  # what is only offered is no rival, and comes second
+            for first in (*here[:1], order[0]):
+                second = next((float(near[number]) for number in here if number != first), 0.0)
+                if near[first] >= LIKELY and near[first] - second >= AHEAD:
+                    return [(int(first), float(near[first]))]
         return found
 
 

@@ -28,11 +28,12 @@ _TABLE = """
     air      ; wind, blow, blown, breez*, draught, carried away, carried off, parachut*, feather, leaf, flutter*, sail, flag, kite, windmill, gust, air ; ; fluid-drag-and-wind
     water    ; water, float, sink, swim, boat, ship, raft, river, pond, lake, wave, buoy* ; floats, sinks, surfaces ; fluid-drag-and-wind
     flowing  ; pour*, flow, flows, flowing, flowed, paint* blend*, paint* mix*, spill*, splash*, drip*, ooz*, honey, syrup, caramel, batter, molten, sand, snow, snowfall, snowflake* ; pours_into, covers, blends ; media
+    stirred  ; stir, stirred, stirring, stirs, swirl*, vortex*, vortic*, whirlpool*, whirl, plughole*, bath drain*, basin drain*, sink drain*, tub drain*, tornado glass, tornado bottle, tornado jar, milk coffee, cream coffee, milk tea ; swirls_round ; media
     inflated ; balloon, inflat*, deflat*, airbag, bottle deform*, bottle cool*, bottle collaps*, bottle crush*, bottle shrink*, vacuum ; has_volume ; media
     soft     ; cloth, flag, curtain, towel, jelly, rubber, sponge, soft*, bend, bent, hose, cable, branch, bough, twig, reed, tree ; sags, bends, stretches, keeps_new_shape, returns_to_shape ; flex-cloth-soft-rods
     pressed  ; squeez*, compress*, squash*, sponge, foam, cushion, pillow, mattress, dough, knead*, dent, indent*, mould*, mold*, putty, plasticine, lump clay, clay squeez*, clay press*, clay flatten* ; ; media
     breaking ; break, broke, broken, snap, shatter*, crack, tear, torn, burst, fractur*, collaps* ; breaks, breaks_at, comes_apart ; breakable-things
-    figure   ; person, man, woman, child, dancer, gymnast, doll, puppet, walk, acrobat ; ; articulated-figures
+    figure   ; person, man, woman, child, dancer, gymnast, doll, puppet, walk, acrobat, fist, finger*, hand squeez*, hand hold*, hand held, hand press*, hand put*, hand pour* ; ; articulated-figures
     vehicle  ; car, truck, cart, bicycl*, bike, train, wagon, vehicl*, tractor, skateboard* ; ; vehicles
     force    ; attract*, repel*, planet*, thrust, rocket ; ; custom-forces
     field    ; magnet*, electr*, eddy, charge, charged, copper tube, copper pipe ; has_reading ; fields

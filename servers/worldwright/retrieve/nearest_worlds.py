@@ -5,6 +5,7 @@ A world of the same mechanism teaches a plan what its words cannot: a tetherball
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -52,7 +53,7 @@ class World:
         """The name of its folder."""
         return self.folder.name
 
-    @property
+    @cached_property
     def mechanisms(self) -> tuple[str, ...]:
         """What makes it happen, by plan and prompt."""
         found = {*mechanisms.of_plan(self.plan), *mechanisms.of_sentence(self.prompt)}

@@ -23,8 +23,8 @@ from ..model.evidence import rehearsed
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import SOURCE, Run
 from ..model.frozen import Frozen
-from ..model.storage import writing
-from . import gates, plain, refined
+from ..model.storage import link_on_the_way, writing
+from . import gates, refined
 from .job import Job
 from .launch import end_orphans, one_at_a_time, orphans
 
@@ -76,11 +76,7 @@ def used(run: Run, key: EvidenceKey) -> Disk:
     sizes = _sizes(run.folder)
     parts = {"evidence": run.folder / "evidence", "jobs": run.jobs, "accepted": run.accepted}
     size = {f"{name}_mb": sizes.get(str(path), 0) / MB for name, path in parts.items()}
-    going = (
-        ()
-        if _under_way(run)
-        else (path for path in freeable_of(run, key) if not plain.link_on_the_way(run.folder, path))
-    )
+    going = () if _under_way(run) else (path for path in freeable_of(run, key) if not link_on_the_way(run.folder, path))
     freeable = sum(sizes[str(path)] if str(path) in sizes else _size(path) for path in going) / MB
     return Disk(total_mb=sizes.get(str(run.folder), 0) / MB, freeable_mb=freeable, **size)
 
@@ -105,7 +101,7 @@ def free(run: Run, key: EvidenceKey | None, *, dry: bool) -> Freed:
             for one in (run, rehearsal) if rehearsal else (run,):
                 end_orphans(one)  # what still writes would write on, into what is removed
         found = sorted(freeable_of(run, key))
-        if links := [link for path in found if (link := plain.link_on_the_way(run.folder, path))]:
+        if links := [link for path in found if (link := link_on_the_way(run.folder, path))]:
             raise GateError(
                 f"{links[0].relative_to(run.folder)} is a link: what lies behind it is not the run's to remove",
                 place=str(links[0]),

@@ -18,7 +18,7 @@ from worldkit.files import write_atomic, write_json
 from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey
 from ..model.evidence.run import Run
-from ..model.picture import Illustrated, Picture, file_name
+from ..model.picture import FILM_NAME, Illustrated, Picture, file_name
 from . import plain
 from .pictures import Shown
 
@@ -60,7 +60,10 @@ def _kept(folder: Path, found: Illustrated) -> Illustrated:
         rows.append({"file": file_name(number, picture), "caption": picture.caption, "format": picture.format})
         write_atomic(folder / rows[-1]["file"], picture.data)
         rows[-1]["sha256"] = hashlib.sha256(picture.data).hexdigest()
-    told = {"cameras": shown.cameras, "captions": shown.captions, "pictures": rows}
+    told: dict[str, Any] = {"cameras": shown.cameras, "captions": shown.captions, "pictures": rows}
+    if found.film:
+        write_atomic(folder / FILM_NAME, found.film)
+        told["film"] = hashlib.sha256(found.film).hexdigest()
     write_json(folder / TOLD, told)
     others = sorted((one for one in folder.parent.iterdir() if one != folder), key=lambda one: -one.stat().st_mtime)
     for old in others[MOST_KEPT - 1 :]:
@@ -77,8 +80,11 @@ def _read(folder: Path) -> Illustrated | None:
             if hashlib.sha256(data).hexdigest() != row["sha256"]:
                 return None
             pictures.append(Picture(data, row["caption"], row["format"]))
+        film = (folder / FILM_NAME).read_bytes() if "film" in told else b""
+        if film and hashlib.sha256(film).hexdigest() != told["film"]:
+            return None
         shown = Shown(cameras=tuple(told["cameras"]), captions=tuple(told["captions"]))
-        return _where(Illustrated(shown, tuple(pictures)), folder)
+        return _where(Illustrated(shown, tuple(pictures), film=film), folder)
     return None
 
 
@@ -87,6 +93,7 @@ def _where(found: Illustrated, folder: Path) -> Illustrated:
     assert isinstance(shown, Shown)
     said = (
         *shown.captions,
+        *([f"it moves in {folder / FILM_NAME}"] if found.film else ()),
         f"kept in {folder}, and not drawn again while recording, film and renderer stay as they are",
     )
     return replace(found, data=shown.model_copy(update={"captions": said}), folder=folder)

@@ -159,7 +159,7 @@ def draw_moment(run: Run, at_s: float, camera: str | None, size: tuple[int, int]
 
 def draw_moments(
     run: Run, wanted: "Sequence[tuple[str, float, str, tuple[int, int]]]", within_s: float
-) -> "list[bytes | None]":
+) -> "tuple[list[bytes | None], dict[str, Any]]":
     """For other servers (no tool): moments through cameras as PNG, in one process; see `stage.one_frame.each`."""
     from ..model.evidence import environment
     from .one_frame import each

@@ -22,8 +22,8 @@ from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
+from ..model.storage import link_on_the_way
 from .gates import folder_name, passed
-from .plain import link_on_the_way
 from .sandbox.confinement import gl_backend
 
 CANCEL_S = 10.0

@@ -20,7 +20,8 @@ from ..model.errors import GateError, JobError
 from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
-from . import bare_models, family, gates, plain, refined
+from ..model.storage import link_on_the_way, own
+from . import bare_models, family, gates, refined
 from .job import Job, JobStatus, Spec
 from .warm import kept_warm
 
@@ -74,6 +75,7 @@ def launch(
         def ended() -> tuple[str, ...]:
             return () if given or fresh else tuple(_end_outdated(run, stage, variant, key, film))
 
+        own(run.folder, run.evidence(key) / gates.folder_name(stage, variant))
         earlier = gates.passed(run, key, stage, variant)
         if earlier is not None and stage == "final" and not (earlier.get("summary") or {}).get("complete"):
             earlier = None  # more minutes make it better
@@ -143,7 +145,7 @@ def launch(
         )
         for left in end_orphans(run):
             for folder in (left.scratch, left.out):
-                if plain.link_on_the_way(run.folder, folder) is None:
+                if link_on_the_way(run.folder, folder) is None:
                     shutil.rmtree(folder, ignore_errors=True)
         job = Job.create(run, spec)
         _detach(job)

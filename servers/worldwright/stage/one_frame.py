@@ -21,14 +21,21 @@ from .pictures import BUDGET_BYTES, Shown, jpeg
 from .short_runs import WALL_S, engine, run_process
 
 SIZE, SHOT_WIDTH = (640, 360), 432
-"""Of a moment, and across each on a sheet of shots, pixels."""
+"""Of a moment of a film of 16:9, others as many pixels in their own shape; and across each on a sheet of shots."""
 MOST_MOMENTS = 12
+MOVING, ROUGH_SHEET = "moving.mp4", "moving.jpg"
+ROUGH_S = 25.0
+"""A film is drawn roughly in about so long, s; a longer one in fewer frames."""
 FILM = "film"
 FRAME = "frame.png"
 
 
 def draw(
-    run: Run, key: EvidenceKey, at_s: float | Sequence[float], camera: str | None = None, size: tuple[int, int] = SIZE
+    run: Run,
+    key: EvidenceKey,
+    at_s: float | Sequence[float],
+    camera: str | None = None,
+    size: tuple[int, int] | None = None,
 ) -> Illustrated:
     """Draw the pictures of some moments in one process, and say what a whole film of them costs.
 
@@ -37,7 +44,7 @@ def draw(
         key: the hashes of the recording.
         at_s: seconds of the film, or of the recording where a camera of the plan is named, or none is and there is no `film.py`.
         camera: a camera of the plan; None or `film` for the film's own; without a `film.py`, `film` is the house's own film.
-        size: pixels.
+        size: pixels; None: as many as `SIZE` has, in the film's own shape.
 
     Raises:
         GateError: nothing is recorded of this program and plan.
@@ -52,7 +59,8 @@ def draw(
         )
     filmed = camera == FILM or (camera is None and (run.folder / pictures_of.FILM).is_file())
     through = ["--camera", camera] if camera else []
-    found = draw_frame(run, recorded(run, key), moments, size, filmed, through)
+    physics = recorded(run, key)
+    found = draw_frame(run, physics, moments, size or _shaped(physics), filmed, through)
     said = found["result.json"]
     captions = []
     for row in said["moments"]:
@@ -71,8 +79,10 @@ def draw(
 
 def each(
     run: Run, key: EvidenceKey, wanted: Sequence[tuple[str, float, str, tuple[int, int]]], within_s: float = math.inf
-) -> list[bytes | None]:
+) -> tuple[list[bytes | None], dict[str, Any]]:
     """Draw pictures of many cameras in one process: PNG of each, None of those that would have begun after `within_s` seconds.
+
+    Beside them, where one is of the film: what is told of it, described anew (`film`), and what frames of it by chance hide (`hides`).
 
     Args:
         run: the run with its program and plan, and its film if it has one.
@@ -94,7 +104,14 @@ def each(
     named = (FRAME[:-4] + "*.png",)
     found = draw_frame(run, recorded(run, key), (), SIZE, filmed, words, words, named, wall_s=WALL_S * len(wanted))
     names = [FRAME, *(f"frame-{number}.png" for number in range(2, len(wanted) + 1))]
-    return [found.get(name) for name in names]
+    return [found.get(name) for name in names], found["result.json"]
+
+
+def _shaped(physics: Path) -> tuple[int, int]:
+    """As many pixels as `SIZE` has, in the shape of the film, both sides even."""
+    width, height = plain.read_json(physics / "program.json")["size"]
+    scale = math.sqrt(math.prod(SIZE) / (width * height))
+    return max(16, 2 * round(width * scale / 2)), max(16, 2 * round(height * scale / 2))
 
 
 def shots(run: Run, key: EvidenceKey) -> Illustrated:
@@ -120,7 +137,7 @@ def shots(run: Run, key: EvidenceKey) -> Illustrated:
         until = told["film_s"] + told["seconds"]
         times = f"{told['film_s']:.2f} to {until:.2f} s, recorded {told['from_s']:.2f} to {told['to_s']:.2f} s"
         lines.append(f"shot {number}: {times}, speed {told['speed']:g}; luma {luma}; {'; '.join(sizes)}")
-    lines += [*_of_film(said), JUDGE_NOW]
+    lines += [*said["unlit"], *_of_film(said), JUDGE_NOW]
     sheets = sorted((name for name in found if name.startswith("shots-")), key=lambda n: int(n[6:-4]))
     share = BUDGET_BYTES // max(len(sheets), 1)
     pictures = tuple(
@@ -132,11 +149,44 @@ def shots(run: Run, key: EvidenceKey) -> Illustrated:
     return Illustrated(Shown(cameras=(FILM,), captions=tuple(lines)), pictures)
 
 
+def moving(run: Run, key: EvidenceKey) -> Illustrated:
+    """Draw the whole film roughly, to see it move: an MP4 of a quarter of its pixels and every second frame, and a sheet of it.
+
+    Raises:
+        GateError: nothing is recorded of this program and plan.
+        JobError: `film.py` does not run, or asks for what may not be shown; the error has its line.
+    """
+    words = ["--moving", "--within", str(ROUGH_S)]
+    found = draw_frame(
+        run, recorded(run, key), (), SIZE, True, words, words, (MOVING, ROUGH_SHEET), sized=False, wall_s=6 * ROUGH_S
+    )
+    said = found["result.json"]
+    rows = said["moments"]
+    named = rows[0]["reading"]["subjects"]
+    sizes = [
+        f"{name} {min(px)} to {max(px)} px"
+        for name in named
+        for px in [[row["reading"]["subjects"].get(name, 0) for row in rows]]
+    ]
+    width, height = said["size"]
+    lines = [
+        f"roughly: {said['drawn']} of {said['frames']} frames, {width} x {height}; no evidence; {'; '.join(sizes)}",
+        *(
+            f"shot {n}: from {one['film_s']:.2f} s, {one['seconds']:.2f} s"
+            for n, one in enumerate(said["film"]["shots"], 1)
+        ),
+        f"the film itself, {said['frames']} frames, takes about {minutes(said['frames'] * said['frame_s'])} to draw alone",
+        JUDGE_NOW,
+    ]
+    sheet = Picture(_smaller(found[ROUGH_SHEET], BUDGET_BYTES), "the film, roughly, row by row", "jpeg")
+    return Illustrated(Shown(cameras=(FILM,), captions=tuple(lines)), (sheet,), film=found[MOVING])
+
+
 def _of_film(said: dict[str, Any]) -> list[str]:
     """What all of a film costs, what it only draws, and which looks it changes."""
     cost = minutes(said["frames"] * said["frame_s"])
     return [
-        f"all {said['frames']} frames like {'this one' if len(said['moments']) == 1 else 'these'} take about {cost} to draw",
+        f"all {said['frames']} frames like {'this one' if len(said['moments']) == 1 else 'these'} take about {cost} to draw alone",
         f"drawn only: {', '.join(said['film']['drawn_only']) or 'nothing'}",
         *(f"{name} looks like {look}" for name, look in said["film"]["looks"].items()),
     ]
@@ -162,6 +212,7 @@ def draw_frame(
     more: Sequence[str] = (),
     wanted: Sequence[str] = (FRAME, "frame-*.png"),
     unmoved: bool = False,
+    sized: bool = True,
     **limits: float,
 ) -> dict[str, Any]:
     """What the engine tells and leaves (`FRAME`, `frame-2.png` …) of moments of the film where it is `filmed`, else `through` a camera.
@@ -176,12 +227,13 @@ def draw_frame(
         more: further words for the engine, of a film.
         wanted: names of what the engine must leave, or patterns of what it may.
         unmoved: `physics` holds no recording, but a world that stands still.
+        sized: whether the pictures have `size`; else the engine's own for what is asked.
         limits: of the process, if they are not the usual ones; see `short_runs`.
     """
     moments = [at_s] if isinstance(at_s, int | float) else at_s
     with tempfile.TemporaryDirectory(prefix="worldwright-frame-") as folder:
         told = [describe(run, physics, Path(folder), unmoved)] if filmed else []
-        words = ["frame", *given_words(physics), "--size", f"{size[0]}x{size[1]}"]
+        words = ["frame", *given_words(physics), *(("--size", f"{size[0]}x{size[1]}") if sized else ())]
         words += [word for at in moments for word in ("--at", str(float(at)))]
         words += ["--film", str(told[0]), *more] if told else through
         return engine(words, (physics, *told), wanted, **limits)

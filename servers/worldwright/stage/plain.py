@@ -62,10 +62,3 @@ def odd(folder: Path) -> Iterator[str]:
             yield from (f"{entry.name}/{name}" for name in odd(Path(entry.path)))
         elif not stat.S_ISREG(facts.st_mode) or facts.st_nlink != 1:
             yield entry.name
-
-
-def link_on_the_way(top: Path, path: Path) -> Path | None:
-    """The first link between a folder and what lies in it, itself included: what is behind one is not the folder's."""
-    inside = path.relative_to(top).parts
-    steps = (top.joinpath(*inside[: n + 1]) for n in range(len(inside)))
-    return next((step for step in steps if step.is_symlink()), None)

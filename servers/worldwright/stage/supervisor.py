@@ -21,7 +21,7 @@ from worldkit.law_work import GROWING
 from ..model.errors import GateError, JobError
 from ..model.evidence.reports import PassResult
 from ..model.evidence.run import Run, sha256_file
-from ..model.storage import FULL
+from ..model.storage import FULL, own
 from . import bare_models, compiled_laws, plain, refined, sandbox
 from .crew import Crew, adopt_orphans, reap_all
 from .gates import folder_name, require
@@ -206,7 +206,11 @@ class Supervision:
         return None
 
     def strange(self) -> dict[str, str] | None:
-        """Refuse anything but plain files as evidence: a link could lead anywhere."""
+        """Refuse anything but plain files as evidence, and to write it behind a link: that could lead anywhere."""
+        try:
+            own(self.run.folder, self.run.evidence(self.spec.key) / folder_name(self.spec.stage, self.spec.variant))
+        except GateError as refusal:
+            return {"code": "not_plain", "message": refusal.cause, "next_move": refusal.next_move}
         names = list(plain.odd(self.job.out)) if self.job.out.is_dir() else []
         if not names:
             return None

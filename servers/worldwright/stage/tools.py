@@ -106,6 +106,8 @@ class Drafted(Frozen):
     """Places left to the author, each marked `AUTHOR:` in the file."""
     unread: tuple[str, ...] = ()
     """Constants of the plan that the draft reads nowhere."""
+    film: str = ""
+    """The first `film.py`, if it was written just now."""
 
     def text(self) -> str:
         """One line, the open places, and the constants without a reader."""
@@ -114,16 +116,18 @@ class Drafted(Frozen):
             left = ", no open places"
         if self.unread:
             left += f"\n- read nowhere: {', '.join(self.unread)}; does a step's description ask for them?"
+        if self.film:
+            left += f"\n{self.film}: a first film, drafted; change what it marks CHANGE"
         return f"{self.file}: {self.outcome}, {self.lines} lines{left}"
 
 
 def draft(run: RunName) -> Drafted:
-    """Write simulation.py from the approved plan, as far as the plan declares the world.
+    """Write simulation.py from the approved plan, as far as the plan declares the world, and a first film.py if there is none.
 
     For rigid bodies, joints and initial motion the draft is whole; what else the plan asks for is left as places marked
-    `AUTHOR:`. An author's program is never overwritten.
+    `AUTHOR:`. What an author wrote is never overwritten.
     """
-    from ..draft.writing import write_program
+    from ..draft.writing import write_film, write_program
 
     found = Run.find(run)
     written = write_program(found, actor="code")
@@ -134,6 +138,7 @@ def draft(run: RunName) -> Drafted:
             "lines": written.lines,
             "open_places": written.open_places,
             "unread": written.unread,
+            "film": str(found.folder / "film.py") if write_film(found, actor="code") else "",
         }
     )
 
@@ -245,11 +250,11 @@ def frames(
     camera: Annotated[str | None, Field(description="One camera; all of them when left out.")] = None,
     count: Annotated[int, Field(description="Pictures on a contact sheet.", ge=1, le=24)] = 8,
     show: Annotated[
-        Literal["all", "storyboard", "stills", "sheet", "key", "reference", "shots"],
+        Literal["all", "storyboard", "stills", "sheet", "key", "reference", "shots", "moving"],
         Field(
             description="Stills, contact sheets, key frames (setup, midway, event, aftermath), or all of them; `storyboard`: five "
             "moments a camera, there before all others; `reference`: the given image beside the first camera's still; "
-            "`shots`: film.py's, first, middle and last of each, drawn now."
+            "`shots`: film.py's, first, middle and last of each, drawn now; `moving`: all of it, roughly, a film and its sheet, within s."
         ),
     ] = "all",
     start_s: Annotated[float, Field(description="Contact sheets begin at this time.", ge=0)] = 0.0,
@@ -277,6 +282,11 @@ def frames(
 
         asked = {"at": at, "camera": camera, "size": SIZE}
         return drawn_once.drawn(folder, key, "moments", asked, lambda: draw(folder, key, at, camera))
+    if show == "moving":
+        from . import drawn_once
+        from .one_frame import moving
+
+        return drawn_once.drawn(folder, key, "moving", {}, lambda: moving(folder, key))
     if show == "shots":
         from . import drawn_once
         from .one_frame import SHOT_WIDTH, shots

@@ -120,7 +120,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         try:
             shutil.rmtree(made, ignore_errors=True)
             statement = _assemble(state, stripped, proved, again, taken, shown, made, signer)
-            _look(state, proved, made)
+            _look(state, proved, made, statement.predicate.film)
             stamp_sha256 = bundle.seal(made, statement)
             signing.sign(made, bundle.STAMP, signer)
             bundle.publish_copy(made, state.run, versions.aside(state.run))
@@ -199,9 +199,10 @@ def _assemble(
     return Statement(subject=bundle.subjects(folder), predicate=predicate)
 
 
-def _look(state: State, proved: Proved, folder: Path) -> None:
-    """Refuse pictures that show another world (`GateError`): that they are as their pass wrote them says a journal without secrets."""
-    for found in redrawn.glance(folder, proved):
+def _look(state: State, proved: Proved, folder: Path, filmed: Filmed | None = None) -> None:
+    """Refuse pictures that show another world, and a film that is told otherwise than it is (`GateError`): that they are as their
+    pass wrote them, and its result, says a journal without secrets."""
+    for found in redrawn.glance(folder, proved, filmed=filmed):
         stage = "video" if ".mp4" in found.split()[0] else "stills"
         raise GateError(
             found,
@@ -259,7 +260,19 @@ def _predicate(
     plan, key, environment = state.plan, state.key, state.environment
     scan, expect, review, visual = state.scan.value, state.expect.value, state.review.value, state.visual.value
     if not (plan and key and environment and scan and expect and review and visual):
-        raise GateError("the run changed while it was being accepted", place=state.place, next_move="accept it again")
+        needed: dict[str, object] = {
+            "plan.md": plan,
+            "simulation.py": key,
+            "the environment": environment,
+            "scan.json": scan,
+        }
+        needed |= {"expect.json": expect, "review.json": review, "visual.json": visual}
+        gone = ", ".join(name for name, found in needed.items() if not found)
+        raise GateError(
+            f"the run changed while it was being accepted: {gone} cannot be read any more",
+            place=state.place,
+            next_move=f"worldwright stamp status {state.place}",
+        )
     bound = {o.index: o.evidence for o in review.objectives}
     approval = state.approval or {}
     return Acceptance(

@@ -39,23 +39,36 @@ def static(run: Run, folder: Path, signer: Path | None = None, live: Run | None 
 
 
 def _beside(run: Run, folder: Path, statement: Statement, live: Run) -> Iterator[Check]:
-    """Check that the plan beside an accepted folder is the stamped one: a genuine stamp proves nothing about another plan.
+    """Check that the plan beside an accepted folder is the stamped one: a genuine stamp proves nothing about another plan, and
+    none about what is reached by a link, which is whoever's it leads to.
 
-    What else lies beside what was stamped is told by its name, by a look at the run itself: no answer rests on it.
+    A plan or a journal that is missing lies about nothing, and is told. What else lies beside what was stamped is told by its
+    name, by a look at the run itself: no answer rests on it.
     """
     if unlisted := bundle.beside_small(folder, statement):
         yield Check(
             name="beside", ok=True, note=True, detail=f"{_some(unlisted)}: in no list, this stamp says nothing of it"
         )
-    if folder == run.folder or not run.plan.is_file():
+    if folder == run.folder:
         return
-    if run.plan.read_bytes() != (folder / run.plan.name).read_bytes():
+    for path in (run.plan, run.journal):
+        if path.is_symlink():
+            detail = f"{path.name} of the run is a link: what it leads to is not the run's, and this stamp says nothing of it"
+            yield Check(name="beside", ok=False, detail=detail)
+    held = (run.plan, *[run.journal] * bool(statement.predicate.journal_head))
+    if missing := [path.name for path in held if not path.is_file() and not path.is_symlink()]:
+        detail = f"{' and '.join(missing)} of the run: not there, only {folder.name}/ is"
+        yield Check(name="beside", ok=True, note=True, detail=detail)
+    if run.plan.is_file() and run.plan.read_bytes() != (folder / run.plan.name).read_bytes():
         detail = (
             f"the plan of the run is another than the stamped one in {folder.name}/, which this stamp says nothing of"
         )
         yield Check(name="beside", ok=False, detail=detail)
     if changed := list(lies_beside.other(live, statement)):
         detail = f"{_some(changed)}: another than what was accepted, which is in {folder.name}/"
+        yield Check(name="beside", ok=True, note=True, detail=detail)
+    if added := list(lies_beside.added(live, statement)):
+        detail = f"{_some(added)}: beside what was accepted, this stamp says nothing of it"
         yield Check(name="beside", ok=True, note=True, detail=detail)
 
 

@@ -17,7 +17,7 @@ from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
-from . import at_work, audited, gates, next_repair, picture_claims, proof_ahead, scope
+from . import at_work, audited, gates, next_repair, picture_claims, proof_ahead, rough_film, scope
 from .gone import Gone, Wrong
 from .halts import RunningError, TurnError, WrongError
 from .smallest_seen import smallest_seen
@@ -54,6 +54,8 @@ class Going:
     """
 
     groups = GROUPS
+    attended = True
+    """Whether somebody looks and changes: a first film is drafted where nobody wrote one, and drawn roughly once the claims hold."""
 
     def __init__(
         self,
@@ -73,7 +75,7 @@ class Going:
         self.held: dict[StepName, str] = {}
         self.wrong: list[Wrong] = []
         self.under_way: list[str] = []
-        self.storyboard = self.robust = self.proof = ""
+        self.storyboard = self.robust = self.proof = self.moving = ""
         self.of_layout: tuple[Finding, ...] = ()
         self.ended: dict[PassName, tuple[str, ...]] = {}
 
@@ -123,10 +125,10 @@ class Going:
             now = status(State(self.run))
             state, turn = "accepted" if now.state == "accepted" else "waiting", now.next_move
             if state == "waiting" and self.until == "expect" and self.step("video").status == "missing":
-                turn = next_repair.film_first(State(self.run))
+                turn = next_repair.film_first(State(self.run), self.moving)
         return Gone(
             run=self.run.name, state=state, held=self.held, wrong=tuple(self.wrong), under_way=tuple(self.under_way),
-            storyboard=self.storyboard, proof=self.proof, robust=self.robust, next_move=turn,
+            storyboard=self.storyboard, moving=self.moving, proof=self.proof, robust=self.robust, next_move=turn,
         )  # fmt: skip
 
     def actions(self) -> Iterator[tuple[StepName, Callable[[], str]]]:
@@ -143,10 +145,18 @@ class Going:
             first = self.film_due() and not self.wrong and self.until not in group
             if ("expect" in group and not first) or ("video" in group and not (self.storyboard or self.under_way)):
                 self.draw()
+            if "expect" in group and self.attended and not (self.wrong or self.under_way):
+                try:
+                    self.moving = rough_film.drawn(self.run, self.say)
+                except CallOverError as early:
+                    self.under_way.append(f"moving: {early.cause}; {early.next_move}")
 
     def film_due(self) -> bool:
         """Whether the author's own film is still to be drawn: it comes before any other picture, as it is what was asked for."""
-        return (self.run.folder / pictures_of.FILM).is_file() and self.step("video").status == "missing"
+        from ..draft.writing import film_as_drafted
+
+        there = (self.run.folder / pictures_of.FILM).is_file() and not film_as_drafted(self.run)
+        return there and self.step("video").status == "missing"
 
     def step(self, name: StepName) -> Step:
         """Where a step stands now, by the files."""
@@ -199,11 +209,13 @@ class Going:
 
     def draft(self) -> str:
         """The program is there: drafted, unless its author wrote it."""
-        from ..draft.writing import write_program
+        from ..draft.writing import write_film, write_program
 
         written = write_program(self.run)
+        filmed = self.attended and write_film(self.run)
+        first = "; a first film.py, drafted: change what it marks CHANGE" if filmed else ""
         if written.outcome == "kept":
-            return "kept simulation.py as its author left it"
+            return f"kept simulation.py as its author left it{first}"
         unread = f"; read nowhere: {', '.join(written.unread)}" if written.unread else ""
         if written.outcome == "written" and written.open_places:
             places = "".join(f"\n- {place}" for place in written.open_places)
@@ -211,7 +223,7 @@ class Going:
                 f"the draft leaves places to its author{unread}{places}",
                 f"write what is marked AUTHOR in {self.run.program}{unread}, then `worldwright go {State(self.run).place}`",
             )
-        return ("unchanged" if written.outcome == "unchanged" else f"{written.lines} lines") + unread
+        return ("unchanged" if written.outcome == "unchanged" else f"{written.lines} lines") + unread + first
 
     def lint(self) -> str:
         """The program may run."""
@@ -229,10 +241,11 @@ class Going:
 
     def film(self) -> list[str]:
         """What is said of `film.py`, tried before motion is paid for, and later by its pass: a faulty one holds up only the film."""
+        from ..draft.writing import film_as_drafted
         from ..lint.tools import check_program
 
         path = self.run.folder / pictures_of.FILM
-        if not path.is_file() or self.step("physics").holds:
+        if not path.is_file() or self.step("physics").holds or film_as_drafted(self.run):
             return []
         report = check_program([path])
         if errors := [str(f) for f in report.findings if f.severity == "error"]:

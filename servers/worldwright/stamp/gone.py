@@ -26,10 +26,12 @@ class Gone(Frozen):
     wrong: tuple[Wrong, ...] = ()
     """All that is wrong, what to mend first in front."""
     under_way: tuple[str, ...] = ()
+    moving: str = ""
+    """The folder of the film as it was drawn roughly: `moving.mp4`, and a sheet of it."""
     storyboard: str = ""
     """Folder of the sheets that show it, one a camera: to be looked at first."""
     proof: str = ""
-    """That the proof run of a long physics is made beside, where it is."""
+    """What of acceptance is made beside: the repetitions that causes ask for, and the proof run of a long physics."""
     robust: str = ""
     """In how many worlds a little otherwise the claims hold, or that it is being found out beside, which nothing waits for."""
     next_move: str = ""
@@ -46,6 +48,7 @@ class Gone(Frozen):
         lines += [f"  {MARKS['fails']} {wrong.step:<8}{_indented(wrong.what)}" for wrong in self.wrong]
         lines += [f"  … {said}" for said in self.under_way]
         lines += [f"  look: stage.frames, show: storyboard ({self.storyboard})"] if self.storyboard else []
+        lines += [f"  look: stage.frames, show: moving ({self.moving})"] if self.moving else []
         lines += [f"  · proof   {self.proof}"] if self.proof else []
         lines += [f"  · robust  {self.robust}"] if self.robust else []
         return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))

@@ -31,8 +31,17 @@ def of_anomaly(state: State, code: str) -> str:
     return f"correct {place}/simulation.py, one patch; or the plan, if it is wrong"
 
 
-def film_first(state: State) -> str:
-    """The move once the claims hold and nothing is filmed yet: every shot is looked at before minutes go into a video pass."""
-    write = "" if (state.run.folder / "film.py").is_file() else f"write {state.place}/film.py (skill `film`), then "
-    look = f"`worldwright stage frames {state.place} --show shots --save FOLDER`"
-    return f"{write}{look}; {JUDGE_NOW}; then `worldwright go {state.place}`"
+def film_first(state: State, moving: str = "") -> str:
+    """The move once the claims hold and nothing is filmed yet: the film is looked at before minutes go into a video pass.
+
+    `moving` is where it was drawn roughly.
+    """
+    from ..draft.writing import film_as_drafted
+
+    film, go = f"{state.place}/film.py", f"`worldwright go {state.place}`"
+    frames = f"`worldwright stage frames {state.place} --show"
+    if not (state.run.folder / "film.py").is_file():
+        return f"write {film} (skill `film`), then {frames} moving` and {frames} shots --save FOLDER`; {JUDGE_NOW}; then {go}"
+    change = f"change what {film} marks CHANGE (skill `film`)" if film_as_drafted(state.run) else f"mend {film}"
+    look = f"look at {moving}" if moving else f"{frames} moving`"
+    return f"{look}; {JUDGE_NOW}; {change}, {frames} moving` or {frames} shots --save FOLDER` again; then {go}"

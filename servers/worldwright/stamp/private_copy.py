@@ -25,7 +25,7 @@ from .keyring import folder as users_data
 from .statement import Statement
 
 BESIDE = ("plan.md", "prompt.md", "journal.jsonl")
-"""Files of the run that are held against its stamp."""
+"""Files of the run that are held against its stamp; one that is a link stays one in the copy, and leads nowhere."""
 NOWHERE = "/dev/null/a-link"
 """Where a link of the folder leads in the copy: what it led to is not the folder's."""
 ONCE = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
@@ -55,7 +55,10 @@ def _copied(run: Run, home: Path) -> Run:
     if stamped.parts:
         with _opened(run.folder) as top:
             for name in BESIDE:
-                _take(top, name, copy / name)
+                if stat.S_ISLNK(_mode(top, name)):
+                    (copy / name).symlink_to(NOWHERE)
+                else:
+                    _take(top, name, copy / name)
     with _opened(run.stamped) as top:
         _all(top, copy / stamped, () if stamped.parts else BESIDE)
     return Run(copy)
@@ -129,9 +132,7 @@ def _all(top: int, copy: Path, more: Iterable[str]) -> None:
         here = Path(inside)
         for name in (*folders, *names):
             target = copy / here / name
-            try:
-                mode = os.stat(name, dir_fd=handle, follow_symlinks=False).st_mode
-            except FileNotFoundError:  # it went away meanwhile
+            if not (mode := _mode(handle, name)):  # it went away meanwhile
                 continue
             if stat.S_ISDIR(mode):
                 target.mkdir(exist_ok=True)
@@ -141,6 +142,14 @@ def _all(top: int, copy: Path, more: Iterable[str]) -> None:
                 target.touch()
             elif (here / name).as_posix() != STAMP:
                 _take(handle, name, target)
+
+
+def _mode(folder: int, name: str) -> int:
+    """What a name in an open folder is, a link itself; 0 for nothing."""
+    try:
+        return os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode
+    except FileNotFoundError:
+        return 0
 
 
 def _take(folder: int, name: str, target: Path) -> None:

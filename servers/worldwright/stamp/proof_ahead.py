@@ -6,12 +6,9 @@ waits for, the worlds a little otherwise, begins where it ends. It is about what
 what they use is changed, it ends its jobs and itself. Nothing is decided by it; acceptance asks all its questions when it is called.
 """
 
-import os
-import subprocess
-import sys
 from contextlib import suppress
 
-from ..model import try_lock
+from ..model import work_beside
 from ..model.errors import WorldwrightError
 from ..model.evidence.run import Run
 from . import audited, private, repeats, trials_again
@@ -29,8 +26,6 @@ LOOK_S = 5.0
 """How often it looks whether what it proves is still there, s."""
 MADE = "made-ahead"
 """Beside a proof that has come to its end; acceptance removes both."""
-SWITCH, OFF = "WORLDWRIGHT_BESIDE", "0"
-"""The variable that keeps a machine from doing anything unasked, and how."""
 
 
 def long(state: State) -> float:
@@ -43,7 +38,7 @@ def begin(run: Run) -> str:
     """Begin what acceptance needs, unless it is done or under way; what there is to say of it, one line, else empty."""
     state = State(run)
     repeats_too = bool(audited.why_causes(state)) and audited.standing(state, state.causes) in ("absent", "stale")
-    if os.environ.get(SWITCH) == OFF or not (long(state) or repeats_too) or state.key is None:
+    if not work_beside.allowed() or not (long(state) or repeats_too) or state.key is None:
         return ""
     if one(state, "accept").holds:
         return ""
@@ -53,16 +48,7 @@ def begin(run: Run) -> str:
         work = private.proofs(run, state.key.key)
         if (work / MADE).is_file() and not repeats_too:
             return ""
-        handle = os.open(work, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-        try:
-            if try_lock.taken(handle):
-                subprocess.Popen(
-                    [sys.executable, "-P", "-m", MODULE, str(run.folder), str(handle)],
-                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                    start_new_session=True, pass_fds=(handle,),
-                )  # fmt: skip
-        finally:  # the process holds the lock by its own copy, and as long as it lives
-            os.close(handle)
+        work_beside.begin(MODULE, run.folder, work)
         return f"{', then '.join(made)}: made beside what comes next; `go` and `accept` find it"
     return ""
 

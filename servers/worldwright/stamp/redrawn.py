@@ -21,9 +21,9 @@ from ..model.errors import CallOverError, WorldwrightError
 from ..model.evidence import handed_in, pictures_of
 from ..model.evidence.run import Run
 from ..model.plan.plan_text import read_plan
-from . import poster
+from . import film_told, poster
 from .proof import Proved
-from .statement import Statement
+from .statement import Filmed, Statement
 
 if TYPE_CHECKING:
     import numpy as np
@@ -42,6 +42,10 @@ APART = 40.0
 STROKES = 0.02
 """Of a still, which no film's compression blurs: the share of a cell that may be darker or lighter by `APART` than all that lies
 beside it in the other picture. Edges that another driver smooths otherwise lie between what is beside them; a thin stroke does not."""
+FILM_STROKES, FILM_APART = 0.04, 32
+"""The same of a film's frame, of its brightness alone: compression keeps a fourth of the colours, and smears red letters by 0.13 of a
+cell. Of brightness it left under 0.001 beyond in pictures of eight worlds, letters and hard edges and all, at 480 pixels across;
+a line of grey letters one pixel thin was 0.24 and more wherever its background differed from it."""
 STROKE_PX, READABLE_PX = 12, 480
 """So many pixels of a cell at least, in a still at least so wide: on a smaller one nobody reads a thin caption."""
 
@@ -60,14 +64,17 @@ class Shown:
     at_s: float
     camera: str
     still: Path | None = None
-    """The file, of which every stroke is looked at."""
+    """A still's file, of which every stroke is looked at."""
+    frame: "np.ndarray | None" = None
+    """A film's frame, the same."""
 
     @classmethod
     def of(
         cls, picture: "np.ndarray", name: str, what: str, at_s: float, camera: str, still: Path | None = None
     ) -> "Shown":
         """A picture as it was read, uint8 (height, width, 3)."""
-        return cls(name, what, _mosaic(picture), (picture.shape[1], picture.shape[0]), at_s, camera, still)
+        frame = picture if Path(name).suffix == ".mp4" else None
+        return cls(name, what, _mosaic(picture), (picture.shape[1], picture.shape[0]), at_s, camera, still, frame)
 
     def against(self, drawn: bytes) -> str:
         """How the picture drawn again, an encoded one, contradicts it; empty where it does not."""
@@ -81,14 +88,17 @@ class Shown:
         return f"{self.what} does not show this world: a part of it differs by {apart:.0f} of 255 from the picture drawn again"
 
     def _strokes(self, now: "np.ndarray") -> str:
-        """Whether something too thin for the mosaic is painted in or out of a still, which is read once more."""
+        """Whether something too thin for the mosaic is painted in or out of a still, which is read once more, or of a film's frame."""
         import cv2
 
-        mine = None if self.still is None else cv2.imread(str(self.still))
+        mine = self.frame if self.still is None else cv2.imread(str(self.still))
         if mine is None or mine.shape != now.shape or mine.shape[1] < READABLE_PX:
             return ""
-        share = max(_beyond(mine, now), _beyond(now, mine))
-        if share <= max(STROKES, STROKE_PX * CELLS[0] * CELLS[1] / (mine.shape[0] * mine.shape[1])):
+        enough = STROKE_PX * CELLS[0] * CELLS[1] / (mine.shape[0] * mine.shape[1])
+        if self.still is None:
+            mine, now = (cv2.cvtColor(one, cv2.COLOR_BGR2GRAY)[..., None] for one in (mine, now))
+        share = max(_beyond(mine, now, self.still is None), _beyond(now, mine, self.still is None))
+        if share <= max(FILM_STROKES if self.still is None else STROKES, enough):
             return ""
         return f"{self.what} does not show this world: strokes over {share:.0%} of a part of it are not in the picture drawn again"
 
@@ -105,22 +115,23 @@ def differ(folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
             found += _told(path, lambda path: _poster(path, folder, statement, proved))
         else:
             found += _shown(path, proved, FRAMES)
-    yield from _compared(found, proved.run)
+    yield from _compared(found, proved.run, filmed=statement.predicate.film)
 
 
-def glance(folder: Path, proved: Proved, within_s: float = GLANCE_S) -> Iterator[str]:
+def glance(folder: Path, proved: Proved, within_s: float = GLANCE_S, filmed: Filmed | None = None) -> Iterator[str]:
     """The same of the stills, and of one frame of each film, in an order by chance; at least one of them, and no other
-    picture is begun after `within_s` seconds.
+    picture is begun after `within_s` seconds. `filmed`: what is to be stamped of the author's film, of which a frame comes first then.
     """
     _film_of(folder, proved.run)
     paths = [*(folder / "stills").glob("*.png"), *(folder / "video").glob("*.mp4")]
     random.SystemRandom().shuffle(paths)
+    paths.sort(key=lambda path: filmed is None or path.name != f"{poster.FILM}.mp4")
     until, found = time.monotonic() + within_s, list[Shown | str]()
     for path in paths:
         if found and time.monotonic() > until:
             break
         found += _shown(path, proved, 1)
-    yield from _compared(found, proved.run, until)
+    yield from _compared(found, proved.run, until, filmed)
 
 
 def _film_of(folder: Path, run: Run) -> None:
@@ -227,15 +238,24 @@ def _fps(proved: Proved) -> int:
     return int(json.loads((proved.recording.parent / "program.json").read_bytes())["fps"])
 
 
-def _compared(found: "Sequence[Shown | str]", run: Run, until: float = math.inf) -> Iterator[str]:
+def _compared(
+    found: "Sequence[Shown | str]", run: Run, until: float = math.inf, filmed: Filmed | None = None
+) -> Iterator[str]:
     """The sentences among what was found, and one for each picture that another one contradicts, in their order."""
     shown = [one for one in found if isinstance(one, Shown)]
-    apart = iter(_apart(shown, run, until))
+    told: list[str] = []
+    apart = iter(_apart(shown, run, until, AT_ONCE, filmed, told))
     yield from filter(None, (one if isinstance(one, str) else next(apart) for one in found))
+    yield from told[:1]
 
 
-def _apart(shown: "Sequence[Shown]", run: Run, until: float, at_once: int = AT_ONCE) -> list[str]:
-    """What contradicts each picture; empty where nothing does, and of those that would be begun after `until`, but the first."""
+def _apart(
+    shown: "Sequence[Shown]", run: Run, until: float, at_once: int, filmed: Filmed | None, told: list[str]
+) -> list[str]:
+    """What contradicts each picture; empty where nothing does, and of those that would be begun after `until`, but the first.
+
+    In `told` it leaves how the film, which was described anew for its frames, contradicts what is told of it (`filmed`).
+    """
     from ..stage import tools as stage
 
     said: list[str] = []
@@ -246,13 +266,19 @@ def _apart(shown: "Sequence[Shown]", run: Run, until: float, at_once: int = AT_O
         some = shown[first : first + at_once]
         try:
             wanted = [("still" if one.still else "video", one.at_s, one.camera, one.size) for one in some]
-            drawn = stage.draw_moments(run, wanted, max(left_s, 0.0))
+            drawn, film = stage.draw_moments(run, wanted, max(left_s, 0.0))
         except CallOverError:
             raise  # it tells nothing of the pictures
         except WorldwrightError as error:
             alone = len(some) == 1  # else each is drawn for itself, which tells whose fault it is
-            said += [f"{some[0].name} cannot be drawn again: {error}"] if alone else _apart(some, run, until, 1)
+            said += (
+                [f"{some[0].name} cannot be drawn again: {error}"]
+                if alone
+                else _apart(some, run, until, 1, filmed, told)
+            )
         else:
+            if filmed is not None and (wrong := film_told.otherwise(filmed, film)):
+                told.append(f"{poster.FILM}.mp4 is told otherwise than it is drawn: {wrong}")
             said += ["" if data is None else one.against(data) for one, data in zip(some, drawn, strict=True)]
     return [*said, *[""] * (len(shown) - len(said))]
 
@@ -264,12 +290,13 @@ def _mosaic(picture: "np.ndarray") -> "np.ndarray":
     return cv2.resize(picture, CELLS, interpolation=cv2.INTER_AREA).astype(np.float64)
 
 
-def _beyond(one: "np.ndarray", other: "np.ndarray") -> float:
+def _beyond(one: "np.ndarray", other: "np.ndarray", filmed: bool) -> float:
     """The largest share of a cell of one picture that is beyond all that lies beside it in the other one."""
     import cv2
     import numpy as np
 
+    apart = FILM_APART if filmed else APART
     beside = np.ones((2 * max(1, round(one.shape[1] / 400)) + 1,) * 2, np.uint8)
-    low, high = cv2.erode(other, beside).astype(np.int16), cv2.dilate(other, beside).astype(np.int16)
-    out = np.asarray(((one < low - APART) | (one > high + APART)).any(axis=2), np.float32)
+    low, high = (bound(other, beside).reshape(one.shape).astype(np.int16) for bound in (cv2.erode, cv2.dilate))
+    out = np.asarray(((one < low - apart) | (one > high + apart)).any(axis=2), np.float32)
     return float(cv2.resize(out, CELLS, interpolation=cv2.INTER_AREA).max())

@@ -20,8 +20,9 @@ from . import bundle, signing
 from .kept import Kept
 from .statement import Statement
 
-WORLD_BYTES = 1_000_000
-"""So large may a kept world be, with its facts and the inputs that drove it: most are, and version control never forgets."""
+WORLD_BYTES = 250_000
+"""So large may a kept world be, with its facts and the inputs that drove it: version control never forgets, a new stamp has a new world,
+and the program builds it again."""
 
 
 def write(run: Run, target: Path) -> tuple[str, ...]:

@@ -18,6 +18,7 @@ from .accepted import Accepted
 from .gone import Gone
 from .state import Blocked, State
 from .status import Status
+from .steps import one
 from .verification import Verification
 
 RunName = Annotated[str, Field(description="The run folder, or its name")]
@@ -158,6 +159,8 @@ def review(run: RunName, verdict: Annotated[Verdict, Field(description="Three ch
         what += f"; blocked: {ending.cause}"
     elif back := iterations.after_review(known, verdict):
         what += f"; worse than {back.better}, whose program is put back: {back.why}"
+    if verdict.outcome == "pass" and (film := one(known, "video")).status not in ("holds", "not_needed"):
+        what += f"; acceptance needs the films, too ({film.detail or film.status}): `worldwright go {known.place}`"
     return _recorded(run, what, str(path.relative_to(state.run.folder)))
 
 
@@ -223,7 +226,7 @@ def verify(
     """Prove an accepted world again: every checksum, then the world simulated anew, in the sandbox.
 
     A world kept as a file is driven by its recorded inputs, which its program must send again if nobody known here signed;
-    where none is kept (a small form, over 1 MB), or with `rebuild`, its program builds it again. Who signed is said first; it
+    where none is kept (a small form, over 250 kB), or with `rebuild`, its program builds it again. Who signed is said first; it
     is no yes while nobody known here did. One part of its audits, drawn by chance, is simulated again, too. Exact on the
     same build and processor, elsewhere within a tolerance. `running`: call again.
     """

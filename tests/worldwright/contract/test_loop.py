@@ -67,14 +67,15 @@ def verdict(outcome, objectives, **more):
     )
 
 
-def sight():
-    """What is seen of the falling ball."""
+def sight(*more):
+    """What is seen of the falling ball, through some cameras more."""
     from worldwright.model.evidence.reports import Sighting, VisualDescription
 
     return VisualDescription(
         author="world-visual",
         summary="a red ball falls onto a floor",
-        cameras={"overview": "a red ball in the air", "side": "the same from the side"},
+        cameras={"overview": "a red ball in the air", "side": "the same from the side"}
+        | dict.fromkeys(more, "a red ball falls"),
         objects={"ball": "red, in the air"},
         named=(Sighting(seen="a red ball", camera="overview"),),
         event="it falls",
@@ -135,6 +136,7 @@ def test_a_world_is_generated_by_its_four_roles(tmp_path, monkeypatch, small_pla
 
     # code: a name the simulator does not know, found by lint, looked up, repaired
     assert harness.call("world-code", "stage.draft", run=run).outcome == "written"
+    assert (tmp_path / run / "film.py").is_file()  # the first film, filmed below as it was drafted
     drafted = (tmp_path / run / "simulation.py").read_text()
     harness.write(
         "world-code", f"{run}/simulation.py", drafted.replace("def build(", "mujoco.mj_rayTrace\n\n\ndef build(", 1)
@@ -153,7 +155,7 @@ def test_a_world_is_generated_by_its_four_roles(tmp_path, monkeypatch, small_pla
         harness.run_pass("", run, stage)
     frames = harness.call("world-visual", "stage.frames", run=run)
     assert frames.pictures
-    seen = sight()
+    seen = sight("film")
     harness.call("world-visual", "stamp.describe", run=run, description=seen)
     assert harness.call("world-review", "scan.scan", run=run).ok
     assert harness.call("world-review", "scan.expect", run=run).ok

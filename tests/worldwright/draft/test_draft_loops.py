@@ -1,5 +1,6 @@
 """A plan whose joints close a loop is drafted whole, and moves as its geometry says."""
 
+import re
 from pathlib import Path
 
 import mujoco
@@ -86,7 +87,8 @@ def test_other_kinds_of_loops(kind, made, tmp_path):
 def test_what_a_loop_cannot_have_is_told_with_the_way_out(change, told, tmp_path):
     path = changed(tmp_path, change)
     (finding,) = [f for f in check_plan(path).findings if f.code == "WP119"]
-    assert told in finding.message and "list it before the other joint of rocker" in finding.fix
+    assert told in finding.message and "list it before the other joint of rocker, " in finding.fix
+    assert re.search(r"rocker, \w+, by which \w+ carries it: then", finding.fix), finding.fix
     if "motor" not in told and "motion" not in told:
         made = drafted(read_plan(path).plan)
         assert not made.complete and "AUTHOR: joint last_pin closes a loop" in made.source

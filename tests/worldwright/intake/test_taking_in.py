@@ -57,6 +57,15 @@ def test_a_bowl_keeps_its_cavity_and_says_what_was_done(own) -> None:
     assert inside.z == pytest.approx(0.01, abs=2e-3)
 
 
+def test_what_a_gltf_names_goes_with_it(tmp_path: Path) -> None:
+    for name in ("chair.gltf", "chair.bin", "textures/oak.png", "notes.txt"):
+        (tmp_path / "from" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "from" / name).write_bytes(b"x")
+    assert taking_in._lay(tmp_path / "from" / "chair.gltf", tmp_path / "given") == []
+    laid = {path.relative_to(tmp_path / "given").as_posix() for path in (tmp_path / "given").rglob("*.*")}
+    assert laid == {"chair.gltf", "chair.bin", "textures/oak.png"}
+
+
 def test_it_is_found_and_shown_like_any_other(own) -> None:
     from click.testing import CliRunner
 

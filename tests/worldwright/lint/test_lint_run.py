@@ -21,6 +21,7 @@ os.environ['WORLDWRIGHT_OBSERVED_DEBUG'] = '1'
 import mujoco, numpy, threading, concurrent.futures
 from mujoco import batch
 from mujoco.introspect import structs
+import watching, engine, lifecycle, made_worlds, makers, owners, packages
 folder, found = Path(sys.argv[2]), {}
 for name, text in json.load(open(folder / 'cases.json')).items():
     out = folder / name
@@ -31,7 +32,6 @@ for name, text in json.load(open(folder / 'cases.json')).items():
         signal.alarm(120)
         os.dup2(os.open(out / 'log', os.O_CREAT | os.O_WRONLY), 2)
         sys.stdout = open(os.devnull, 'w')
-        import watching
         watching.main(str(out / 'case.py'), out, True)
         os._exit(0)
     os.waitpid(child, 0)

@@ -234,3 +234,14 @@ def test_a_set_of_a_film_is_no_setting_and_the_remedy_says_where_it_belongs(word
     assert found.code == "WP010" and "did you mean" not in found.fix
     for said in ("settings are studio, room, outdoor, dark", f'film.set("{word}")', f"setting: {setting}"):
         assert said in found.fix
+
+
+def test_a_number_out_of_bounds_is_told_both_of_them():
+    with pytest.raises(PlanError) as refusal:
+        parse_plan(
+            GOOD.replace(
+                "cameras: [perspective]", "cameras: [{name: one, view: perspective, subjects: [box], fovy: 200}]", 1
+            )
+        )
+    (found,) = [one for one in refusal.value.findings if one.code == "WP010"]
+    assert "more than 1 and less than 170" in found.fix

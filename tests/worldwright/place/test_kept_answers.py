@@ -14,6 +14,8 @@ from worldwright.place import kept_answers
 from worldwright.place.asking import simulate
 from worldwright.place.engine import resolve
 
+pytestmark = pytest.mark.usefixtures("started_preroll")
+
 
 def plan(mass: float = 0.2) -> Plan:
     """A ball above an apple of the catalog."""

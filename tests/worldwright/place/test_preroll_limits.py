@@ -15,6 +15,8 @@ from worldwright.place import tools as place
 from worldwright.place.asking import RefusedLayoutError, simulate
 from worldwright.place.engine import resolve
 
+pytestmark = pytest.mark.usefixtures("started_preroll")
+
 
 def crates() -> Plan:
     """Two crates side by side, close enough for the pre-roll to be asked."""

@@ -241,3 +241,15 @@ def test_a_scene_of_the_present_recording_is_turned_by_hand_and_one_of_another_i
     assert digest
     scene.write_bytes(data.replace(digest[1], b"0" * 64))
     assert 'id="replay"' not in report.write(run).read_text()
+
+
+@pytest.mark.parametrize("sign", ["&#8238;", "&#x202E;", "\u202e", "&#x2066;"])
+def test_no_sign_of_a_plan_turns_the_direction_in_which_the_page_is_read(planned: Path, copy: Copy, sign: str) -> None:
+    """Markdown makes a sign of an entity after all that looks for signs in the plan has looked."""
+    folder = copy(planned)
+    plan = folder / "plan.md"
+    head, rest = plan.read_text(encoding="utf-8").split("\n", 1)
+    plan.write_text(f"{head}\n\nIt falls {sign}m 92.0\u202c far.\n{rest}", encoding="utf-8")
+    _, html = read(folder)
+    assert not re.search("[\u202a-\u202e\u2066-\u2069]", html)
+    assert "m 92.0\\u202c far" in html

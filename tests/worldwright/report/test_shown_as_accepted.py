@@ -89,6 +89,16 @@ def test_what_differs_from_the_accepted_is_told(found: SimpleNamespace, name: st
     assert list(lies_beside.other(found.run, found.stamp)) == [name]
 
 
+@pytest.mark.parametrize("name", ["/etc/passwd", "../elsewhere", ""])
+def test_a_stamp_that_lists_what_lies_elsewhere_has_nothing_read_there(found: SimpleNamespace, name: str) -> None:
+    (found.run.folder.parent / "elsewhere").write_text("another's")
+    odd = Subject(name=name, digest=Digest(sha256="0" * 64))
+    found.stamp.predicate.source.materials = {}
+    found.stamp = found.stamp.model_copy(update={"subject": (odd,)})
+    assert list(lies_beside.other(found.run, found.stamp)) == []
+    assert list(lies_beside.added(found.run, found.stamp)) == ["prompt.md"]
+
+
 def film(content: bytes) -> HandedIn:
     return HandedIn(name="handed_in.mp4", sha256=hashlib.sha256(content).hexdigest(), seconds=1.0, size=(64, 36))
 

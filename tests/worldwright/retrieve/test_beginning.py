@@ -1,5 +1,6 @@
 """`retrieve.begin`: the nearest world by mechanism, its plan adapted, and what is refused."""
 
+import os
 import shutil
 from pathlib import Path
 
@@ -28,6 +29,10 @@ NEAREST = {
     "honey runs from a spoon into a glass jar": {"honey-from-a-spoon"},
     "A football breaks a window": {"window-pane"},
     "Red and white paints blend on a board": {"two-paints"},
+    "Water is stirred into a vortex": {"spoon-in-a-glass"},
+    "Milk swirls into a cup of coffee": {"spoon-in-a-glass"},
+    "A bathtub drains and a whirlpool forms over the drain": {"spoon-in-a-glass"},
+    "A tornado in a glass": {"spoon-in-a-glass"},
     "A mug slides across the table and stops": {"box-slides-to-rest"},
     "A jack-in-the-box jumps out": {"spring-toy-launches"},
     "A crane lifts a crate by a rope": {"slack-rope-pulls-box"},
@@ -51,12 +56,18 @@ def here(tmp_path, monkeypatch) -> Path:
     return tmp_path
 
 
+@pytest.fixture(scope="module")
+def accepted_worlds() -> list[nearest_worlds.World]:
+    """The examples and the worked cases, read once."""
+    return list(nearest_worlds.worlds(Path(os.devnull)))
+
+
 @pytest.mark.parametrize("meaning", [True, False], ids=["with-meaning", "words-alone"])
 @pytest.mark.parametrize("sentence", NEAREST)
-def test_the_nearest_world_has_the_mechanism(sentence, meaning, monkeypatch, here):
+def test_the_nearest_world_has_the_mechanism(sentence, meaning, monkeypatch, accepted_worlds):
     if not meaning:
         monkeypatch.setattr("worldwright.retrieve.semantic.installed", lambda: False)
-    first, *_ = nearest_worlds.nearest(sentence, list(nearest_worlds.worlds()))
+    first, *_ = nearest_worlds.nearest(sentence, accepted_worlds)
     assert first.world.slug in NEAREST[sentence]
 
 
@@ -127,6 +138,7 @@ MATTER = {
     "A red balloon is blown up and let go": "media/references/skin.md",
     "A rubber band is stretched between two pegs and let go": "media/references/rubber-band",
     "A stone falls into a pond": "media/references/stone-in-a-pond",
+    "Water is stirred into a vortex": "media/references/spoon-in-a-glass",
     "A twig snaps": "breakable-things/references/snapping-twig.md",
     "A flag flutters": "fluid-drag-and-wind/references/flags.md",
 }
@@ -194,7 +206,9 @@ def test_the_film_of_a_worked_case_is_named_and_stays_there(here):
     begun = tools.begin("A stone falls into a pond", like="stone-in-a-pond", run="new")
     assert Path(begun.film) == REPO / "skills/media/references/stone-in-a-pond/film.py" and begun.film in begun.text()
     assert not (here / begun.run / "film.py").exists()
-    assert tools.begin("A marble rolls", like="rolling-marble", run="other").film == ""
+    rolls = tools.begin("A marble rolls", like="rolling-marble", run="other")
+    assert Path(rolls.film) == REPO / "examples/rolling-marble/film.py", "an accepted world has one, too"
+    assert tools.begin("A suitcase tips", like="suitcase-tips", run="third").film == ""
 
 
 def test_the_command_says_the_same(here):

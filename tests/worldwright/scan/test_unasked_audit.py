@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from worldwright import robust_beside
+from worldwright.model import work_beside
 from worldwright.model.errors import GateError
 from worldwright.model.evidence import environment
 from worldwright.model.evidence.audits import RobustReport
@@ -24,7 +25,7 @@ from worldwright.stamp.state import State
 
 @pytest.fixture
 def measured(reviewed: Path, copy: Callable[[Path], Path], monkeypatch: pytest.MonkeyPatch) -> Run:
-    monkeypatch.delenv(unasked_audit.SWITCH)
+    monkeypatch.delenv(work_beside.SWITCH)
     return Run(copy(reviewed))
 
 
@@ -115,9 +116,9 @@ def test_who_looks_while_a_report_is_kept_finds_none_that_nobody_vouches_for(mea
 def test_without_a_claim_that_holds_or_where_nothing_is_done_unasked_nothing_begins(
     measured: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv(unasked_audit.SWITCH, unasked_audit.OFF)
+    monkeypatch.setenv(work_beside.SWITCH, work_beside.OFF)
     assert scan.begin_robust(measured) == ""
-    monkeypatch.delenv(unasked_audit.SWITCH)
+    monkeypatch.delenv(work_beside.SWITCH)
     kept(measured).with_name("expect.json").unlink()
     assert scan.begin_robust(measured) == "" and processes(measured) == []
 

@@ -59,7 +59,7 @@ def test_a_still_is_drawn_again_as_finely_as_it_was(accepted: Path, copy) -> Non
     wanted = [(quality, 0.0, "side", (mine.shape[1], mine.shape[0])) for quality in ("still", "video")]
     still, frame = (
         np.abs(cv2.imdecode(np.frombuffer(data or b"", np.uint8), cv2.IMREAD_COLOR) - mine)
-        for data in stage.draw_moments(run, wanted, math.inf)
+        for data in stage.draw_moments(run, wanted, math.inf)[0]
     )
     assert still.max() <= 2 < frame.max()
 

@@ -1,12 +1,13 @@
 """What `frames` shows: contact sheets, and the moments that matter."""
 
 import base64
+import json
 
 import numpy as np
 import pytest
 
 from worldwright.model.errors import NotFoundError
-from worldwright.stage import moments
+from worldwright.stage import moments, one_frame
 from worldwright.stage.pictures import contact, sheet
 from worldwright.stage.tools import frames
 
@@ -106,3 +107,12 @@ def test_the_reference_image_stands_beside_the_first_cameras_still(reviewed, cop
     assert image[:, -20:].std() > 1  # and a picture of the world on the right
     with pytest.raises(NotFoundError, match=r"no nowhere\.png"):
         frames(str(folder), camera="nowhere", show="reference")
+
+
+@pytest.mark.parametrize(
+    ("size", "drawn"), [((1280, 720), (640, 360)), ((640, 480), (554, 416)), ((720, 1280), (360, 640))]
+)
+def test_a_moment_is_drawn_in_the_shape_of_its_film(tmp_path, size, drawn) -> None:
+    (tmp_path / "program.json").write_text(json.dumps({"size": size}))
+    assert one_frame._shaped(tmp_path) == drawn
+    assert abs(drawn[0] / drawn[1] - size[0] / size[1]) < 0.01 * size[0] / size[1]

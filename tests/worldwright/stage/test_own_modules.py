@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from worldkit import handover
+from worldwright.model import work_beside
 from worldwright.scan.audits import unasked_audit
 from worldwright.stage import launch
 
@@ -34,7 +35,7 @@ def called(monkeypatch: pytest.MonkeyPatch) -> list[tuple[list[str], dict[str, s
     popen = lambda call, **more: found.append((call, more.get("env")))  # noqa: E731
     monkeypatch.setenv("WORLDWRIGHT_WARM", "0")
     monkeypatch.setattr(launch, "subprocess", SimpleNamespace(Popen=popen, DEVNULL=subprocess.DEVNULL))
-    monkeypatch.setattr(unasked_audit, "subprocess", SimpleNamespace(Popen=popen, DEVNULL=subprocess.DEVNULL))
+    monkeypatch.setattr(work_beside, "subprocess", SimpleNamespace(Popen=popen, DEVNULL=subprocess.DEVNULL))
     return found
 
 
@@ -43,8 +44,8 @@ def test_modules_in_the_callers_folder_are_not_run(poisoned: Path, called, monke
     launch._detach(SimpleNamespace(folder=job))
     monkeypatch.setattr(unasked_audit, "_kept", lambda run, key: None)
     monkeypatch.setattr(unasked_audit, "_holds", lambda run, key: True)
-    monkeypatch.delenv(unasked_audit.SWITCH, raising=False)
-    unasked_audit.begin(SimpleNamespace(evidence=lambda key: job, folder=job / "none"), None)
+    monkeypatch.delenv(work_beside.SWITCH, raising=False)
+    unasked_audit.begin(SimpleNamespace(evidence=lambda key: job, folder=poisoned.parent), None)
     called.append((handover._call(["--help"]), handover._environment()))
     assert len(called) == 3
     for call, env in called:

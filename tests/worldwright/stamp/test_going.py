@@ -151,7 +151,12 @@ def test_the_walk_ends_where_it_is_told_to(fresh, monkeypatch):
     assert list(gone.held)[-1] == "expect", gone.text()
     assert not [job for job in (fresh / "jobs").iterdir() if job.name.startswith(("stills", "video"))]
     monkeypatch.setattr(scan, "smallest", lambda _: pytest.fail("the recording is read again"))
-    assert gone.next_move.startswith("write ") and "film.py" in gone.next_move and "--show shots" in gone.next_move
+    assert (fresh / "film.py").is_file() and (Path(gone.moving) / "moving.mp4").stat().st_size > 1000
+    assert [*Path(gone.moving).glob("*.jpg")] and f"look at {gone.moving}; judge" in gone.next_move
+    assert "film.py marks CHANGE" in gone.next_move and "--show shots" in gone.next_move
+    (fresh / "film.py").unlink()
+    bare = stamp.go(str(fresh), until="expect")  # whoever took it away gets no other
+    assert not (bare.moving or (fresh / "film.py").exists()) and bare.next_move.startswith("write ")
     assert "judge belief now" in gone.next_move and "Below 7" in gone.next_move
     assert "smallest" in gone.held["scan"] and stamp.go(str(fresh), until="expect").held["scan"] == gone.held["scan"]
 

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from worldwright import proof_beside
+from worldwright.model import work_beside
 from worldwright.model.errors import NotFoundError
 from worldwright.model.evidence.run import Run
 from worldwright.scan import tools as scan
@@ -22,7 +23,7 @@ from worldwright.stamp.state import State
 
 @pytest.fixture
 def measured(reviewed: Path, copy: Callable[[Path], Path], monkeypatch: pytest.MonkeyPatch) -> Run:
-    monkeypatch.delenv(proof_ahead.SWITCH)
+    monkeypatch.delenv(work_beside.SWITCH)
     monkeypatch.setattr(os, "nice", lambda _: pytest.fail("acceptance waits for it: it is as urgent as all else"))
     return Run(copy(reviewed))
 

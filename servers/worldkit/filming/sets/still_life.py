@@ -21,7 +21,7 @@ def build(film: "Dressing", place: Place) -> None:
     """Draw a painted wall close behind and a wooden top, in low hard sun from the side through a window that is not seen."""
     large = max(place.radius, 0.5 * (place.top - place.floor))
     film.light(azimuth_deg=place.facing_deg - 48, elevation_deg=27, colour="#ffe3ba", strength=1.25)
-    film.sky(zenith="#8d9aa6", horizon="#84827e", ground="#54483c", glow=0.0, strength=0.62)
+    film.sky(zenith="#8d9aa6", horizon="#84827e", ground="#54483c", glow=0.0, strength=0.62, indoors=True)
     film.grade(exposure_stops=0.1, contrast=1.1, saturation=1.02, temperature=0.03, vignette=0.3, glow=0.05)
     film.ground("wood_walnut")
     depth = _depth(film, place) + 0.16 * large

@@ -30,6 +30,8 @@ class Offer:
     library: str
     chosen: bool = False
     """Whether its picture was looked at, and it is what its name says: such offers come first."""
+    whole: bool = False
+    """Whether it is laid out as an asset that is whole, of which nothing more can be asked."""
 
     def described(self) -> str:
         """Its name, and what else it is found by."""

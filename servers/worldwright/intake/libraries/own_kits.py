@@ -45,6 +45,7 @@ def _rows(table: Path, _changed: int) -> tuple[Offer, ...]:
                 creator="",
                 library="own_kits",
                 chosen=True,
+                whole=True,
             )
             for row in csv.DictReader(lines)
         )

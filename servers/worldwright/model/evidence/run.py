@@ -10,7 +10,7 @@ from worldkit.files import json_text, write_atomic, write_json
 
 from .. import companions
 from ..errors import NotFoundError
-from ..storage import writing
+from ..storage import own, writing
 from . import assets_used, seals
 from .journal import Journal
 from .reports import EvidenceKey
@@ -136,9 +136,10 @@ class Run:
         """Atomically store a report model as `evidence/<key>/<name>.json`, with what it is about beside it.
 
         Beside it: `key.json`, and `source/` with the program and the plan themselves, so that every iteration can be
-        gone back to. The next line of the journal vouches for the report's bytes.
+        gone back to. The next line of the journal vouches for the report's bytes. A `GateError` where a link leads out of
+        the run.
         """
-        folder = self.evidence(key)
+        folder = own(self.folder, self.evidence(key) / SOURCE).parent
         path = folder / f"{name}.json"
         with writing(f"the report {path.name}", folder):
             write_json(folder / "key.json", key.model_dump(mode="json"))
@@ -153,6 +154,7 @@ class Run:
         For a report that is made beside other work: whoever reads the evidence meanwhile never finds one that nobody
         vouches for. A kill in between leaves a line about nothing, which proves nothing.
         """
+        own(self.folder, self.evidence(key) / SOURCE)  # before a line of the journal is written
         self._reports[name] = hashlib.sha256(json_text(report.model_dump(mode="json")).encode()).hexdigest()
         self.log(actor, name, key=key.key, **facts)
         self.keep(key, name, report)

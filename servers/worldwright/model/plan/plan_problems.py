@@ -114,7 +114,7 @@ def _problem(path: Path, details: list[dict[str, Any]]) -> Problem:
             "wrong_value",
             path,
             f"`{where}` must be {rule[0].lower() + rule[1:]}, got {shown}",
-            f"`{where}` is {expected(path)}",
+            f"`{where}` is {expected(path)}{allowed(path)}",
         )
     return Problem(
         "WP010", "wrong_value", path, f"`{where}` must be {expected(path)}, got {shown}", _remedy(path, detail["input"])
@@ -196,6 +196,20 @@ def dotted(path: Path) -> str:
 def expected(path: Path) -> str:
     """What belongs at a path of the plan, in words."""
     return describe(annotation_at(path))
+
+
+def allowed(path: Path) -> str:
+    """The numbers that are allowed at a path of the plan, both ends, in words; empty where nothing bounds them."""
+    if len(path) < 2:
+        return ""
+    above = next(
+        (b for b in _branches(annotation_at(path[:-1])) if isinstance(b, type) and issubclass(b, BaseModel)), None
+    )
+    field = above.model_fields.get(str(path[-1])) if above is not None else None
+    words = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
+    rules = field.metadata if field is not None else []
+    said = [f"{word} {getattr(rule, end):g}" for end, word in words.items() for rule in rules if hasattr(rule, end)]
+    return f", {' and '.join(said)}" if said else ""
 
 
 def annotation_at(path: Path) -> Any:

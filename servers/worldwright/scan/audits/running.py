@@ -9,6 +9,7 @@ from ...model.frozen import Frozen
 from ...model.plan.committed import Plan
 from ...model.progress import Progress, silent
 from ...model.recording.trajectory import Trajectory
+from ...model.storage import own
 from ..anomalies.sign import Context
 from . import acting, robustness
 from .causes import Causes
@@ -41,7 +42,7 @@ def audit(
 ) -> Audited:
     """Run the audits asked for; what is not done after `timeout_s` goes on by itself and is named as `pending`."""
     deadline = time.monotonic() + timeout_s
-    trials = Trials(run, memory=run.evidence(key) / "trials.json")
+    trials = Trials(run, memory=own(run.folder, run.evidence(key)) / "trials.json")
     finer = trials.ask("--time-step-factor", f"{FACTOR:g}") if refined else ""
     causal = Causes(trajectory, plan, interventions.acting, trials) if causes else None
     if causal is not None:

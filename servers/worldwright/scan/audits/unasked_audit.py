@@ -7,13 +7,11 @@ there already costs nothing: `robust.json` is not made twice, and a walk that is
 
 import hashlib
 import os
-import subprocess
-import sys
 from contextlib import suppress
 
 from pydantic import ValidationError
 
-from ...model import try_lock
+from ...model import work_beside
 from ...model.errors import GateError, RecordingError
 from ...model.evidence.audits import RobustReport
 from ...model.evidence.journal import Journal
@@ -22,14 +20,12 @@ from ...model.evidence.run import Run
 from ...model.plan.committed import Plan
 from ...model.recording.trajectory import Trajectory
 from ...model.recording.trajectory_files import read_trajectory
-from ...model.storage import writing
+from ...model.storage import own, writing
 from . import robustness, running
 from .trials import Trials
 
 MODULE = "worldwright.robust_beside"
 """What the process runs; it stands at the top of the house, since it writes the run's report anew at its end."""
-SWITCH, OFF = "WORLDWRIGHT_BESIDE", "0"
-"""The variable that keeps a machine from doing anything unasked, and how."""
 LOWEST = 19
 STILL_S = 3600.0
 """With the lowest priority beside much other work, a pass may advance as slowly as this."""
@@ -44,22 +40,10 @@ def begin(run: Run, key: EvidenceKey) -> str:
     folder = run.evidence(key)
     if (done := _kept(run, key)) is not None:
         return done.text().splitlines()[-1]
-    if os.environ.get(SWITCH) == OFF or not _holds(run, key):
+    if not work_beside.allowed() or not _holds(run, key):
         return ""
     with writing("the audit of robustness", folder):
-        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-        try:
-            if try_lock.taken(handle):
-                subprocess.Popen(
-                    [sys.executable, "-P", "-m", MODULE, str(run.folder), str(handle)],
-                    stdin=subprocess.DEVNULL,
-                    stdout=subprocess.DEVNULL,
-                    stderr=subprocess.DEVNULL,
-                    start_new_session=True,
-                    pass_fds=(handle,),
-                )
-        finally:  # the process holds the lock by its own copy, and as long as it lives
-            os.close(handle)
+        work_beside.begin(MODULE, run.folder, own(run.folder, folder))
     return "robust: the worlds a little otherwise are simulated beside, one by one; the report will tell"
 
 

@@ -120,3 +120,37 @@ def two_paints(share: float = 1.0) -> Trajectory:
     hues = np.where(green_now, green, np.where(x < 0, yellow, blue))
     media = ShownPoints({"paint": Lay(t, places.reshape(-1, 3), hues.ravel())})
     return motion(t, np.zeros((len(t), 3)), np.zeros((len(t), 3)), media=media)
+
+
+def pressed_in(deep: float = 0.01, hollow: float = 0.0) -> Trajectory:
+    """`clay`, 0.2 by 0.2 m and 0.05 m thick, of points 4 mm apart, into which a `ball` over its middle makes a dent of 3 cm radius within 1 s.
+
+    Args:
+        deep: of the dent, m.
+        hollow: how much lower its middle lies from the start, m.
+    """
+    t = clock(2.0, 0.1)
+    side = np.arange(-0.1, 0.1, 0.004) + 0.002
+    x, y = (a.ravel() for a in np.meshgrid(side, side))
+    far = np.hypot(x, y)
+    shape = np.clip(1 - (far / 0.03) ** 4, 0.0, 1.0)
+    top = 0.05 - shape * (hollow + deep * np.minimum(t, 1.0)[:, None])
+    flat = np.stack(np.broadcast_arrays(x, y, top), axis=2)
+    whole = np.concatenate([flat, np.stack(np.broadcast_arrays(x, y, 0 * top), axis=2)], axis=1)
+    media = ShownPoints({"clay": Lay(t, whole.reshape(-1, 3))})
+    pos = np.tile((0.0, 0.0, 0.06), (len(t), 1))
+    return motion(t, pos, 0 * pos, names=("ball",), free=False, media=media)
+
+
+def whirling(rate: float = 10.0, shakes: bool = False) -> Trajectory:
+    """`water`: a grid that only sinks, and 80 points that go round its middle at a `rate`, rad/s, for 2 s; or shake to and fro."""
+    t = clock(2.0, 0.04)
+    side = np.linspace(-0.05, 0.05, 9)
+    x, y = (a.ravel() for a in np.meshgrid(side, side))
+    grid = np.stack(np.broadcast_arrays(x, y, -0.01 * t[:, None]), axis=2)
+    far, begins = np.linspace(0.005, 0.05, 80), np.arange(80) * 2.4
+    angle = begins + (0.3 * np.sin(rate * t) if shakes else rate * t)[:, None]
+    round_it = np.stack([far * np.cos(angle), far * np.sin(angle), 0 * angle], axis=2)
+    whole = np.concatenate([grid, round_it], axis=1)
+    media = ShownPoints({"water": Lay(t, whole.reshape(-1, 3))})
+    return motion(t, np.zeros((len(t), 3)), np.zeros((len(t), 3)), media=media)

@@ -1,15 +1,10 @@
-"""The room as one would walk into it: the crate by the door, the laid table, the whole in the light of its lamps."""
+"""The room as one would walk into it: the laid table, apples falling into their bowl, then the whole in the light of its lamps."""
 
-from worldkit.filming import Film, along, still
+from worldkit.filming import Film, along
 
 
 def film(film: Film) -> None:
-    """Two near shots, then the room."""
-    end = film.recorded.duration
-    film.shot(
-        still((1.55, -2.25, 0.85), (0.75, -1.35, 0.12), lens_mm=40, focus="crate", aperture=5.6), until=0.6, speed=0.3
-    )
-    film.shot(along([(1.25, -1.25, 1.40), (0.85, -1.20, 1.36)], (0.05, 0.0, 0.82), lens_mm=40), until=1.5, speed=0.4)
-    film.shot(along([(3.0, -3.0, 1.95), (2.55, -2.75, 1.80)], (-0.15, 0.05, 0.80), lens_mm=30), until=end)
-    film.hold(along([(2.55, -2.75, 1.80), (2.35, -2.60, 1.74)], (-0.15, 0.05, 0.80), lens_mm=30), 1.5)
+    """The table, near and slow, until the fruit lies; then the room, with the crate of vegetables before the rug."""
+    film.shot(along([(1.42, -1.46, 1.50), (1.22, -1.32, 1.42)], (0.02, 0.02, 0.83), lens_mm=36), until=0.6, speed=0.3)
+    film.shot(along([(2.95, -3.15, 1.90), (2.60, -2.90, 1.76)], (-0.10, -0.15, 0.72), lens_mm=29), until=2.8)
     film.grade(exposure_stops=0.15, contrast=1.06, saturation=1.06, temperature=0.12, vignette=0.2)

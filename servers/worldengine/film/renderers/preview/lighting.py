@@ -58,4 +58,5 @@ def sky_uniforms(setting: Setting, told: Treatment) -> dict[str, object]:
         "sky_zenith": linear(zenith) * strength, "sky_horizon": linear(told.sky_horizon) * strength,
         "sky_ground": linear(told.sky_ground) * strength,
         "sky_traits": (told.sky_glow, told.sky_clouds, told.sky_stars, cos(radians(max(half, 0.8)))),
+        "sky_indoors": told.sky_indoors,
     }  # fmt: skip

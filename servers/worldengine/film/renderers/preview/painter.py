@@ -17,7 +17,7 @@ from .far_first import far_first
 from .finish import linear
 from .lighting import TOLD
 from .near_air import Reach
-from .shader_variants import Features, Variants, features, glossy
+from .shader_variants import Features, Variants, features, glossy, metal
 from .shadows import ShadowMap
 from .soft import Soft
 from .supplies import Supplies
@@ -30,6 +30,7 @@ CLOSED = (*swarms.ROUND, "box")
 """Shapes whose far sides are never seen from outside."""
 SHEETS = ("plane", "disc", "hfield")
 """Shapes without a thickness, which keep their tint whatever their look absorbs."""
+CUBE, FLAT = GL.GL_TEXTURE_CUBE_MAP, GL.GL_TEXTURE_2D
 NESTED = 16
 """Of so many see-through things each is seen through the others."""
 
@@ -64,16 +65,20 @@ class Painter:
         self._rows = things.rows
         self._variants, self._reach = Variants(), Reach(things)
         self._prepared: set[Features] = set()
+        self.metal_alone = False
+        """Whether metal needs no picture of what is around it beside its cube."""
         self._buffer = GL.glGenBuffers(1)
         self._rows_texture = GL.glGenTextures(1)
 
-    def upload(self, data: mujoco.MjData) -> None:
-        """Take over the poses of `data`."""
+    def upload(self, data: mujoco.MjData, hidden: np.ndarray | None = None) -> None:
+        """Take over the poses of `data`; the things of the rows `hidden` are not to be drawn."""
         self.things.update(data)
         self.soft.update(data)
         rows = np.concatenate([self.things.rows, self._wall_rows, self.soft.rows])
         if not len(rows):
             rows = np.zeros((1, FLOATS), dtype=np.float32)
+        if hidden is not None:
+            rows[hidden, 12:16] = 0.0
         self._rows = rows
         GL.glBindBuffer(GL.GL_TEXTURE_BUFFER, self._buffer)
         GL.glBufferData(GL.GL_TEXTURE_BUFFER, rows.nbytes, np.ascontiguousarray(rows), GL.GL_STREAM_DRAW)
@@ -190,21 +195,31 @@ class Painter:
         self._hazed = self._reach.hazed(self._rows, self.soft.balls, np.asarray(uniforms["eye"], dtype=float))
         self._hazed &= self.setting == TOLD
 
-    def _shade(self, batch: Batch, shape: gl.Shape, count: int, *, simple: bool = False, mirror: bool = False) -> None:
+    def _shade(
+        self,
+        batch: Batch,
+        shape: gl.Shape,
+        count: int,
+        *,
+        simple: bool = False,
+        mirror: bool = False,
+        from_metal: bool = False,
+    ) -> None:
         """Draw `count` things from the batch's first with its own variant of the surface shader."""
         kind = self.supplies.paint_kind(batch.finish, float(self._rows[batch.first, 26]))
         reflecting, panels = "reflection" in self._textures, bool(self._uniforms["panel_count"])
         wanted = features(
             batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind, panels=panels,
             lamps=bool(self._uniforms["lamp_count"]), gobo="gobo" in self._textures, coloured=shape.coloured,
-            hazed=bool(self._hazed[batch.first : batch.first + count].any()),
+            hazed=bool(self._hazed[batch.first : batch.first + count].any()), around_metal="cube" in self._textures,
+            from_metal=from_metal,
         )  # fmt: skip
         program = self._variants.get(wanted).use()
         if wanted not in self._prepared:
             self._prepared.add(wanted)
             program.set(**self._uniforms)
             for name, (unit, handle) in self._textures.items():
-                program.texture(name, unit, handle)
+                program.texture(name, unit, handle, CUBE if name == "cube" else FLAT)
             self._shadow.bind(program)
         if kind:
             wide = batch.shape[0] == "disc" or batch.finish.look.tile_m > 1.0
@@ -217,24 +232,30 @@ class Painter:
             program.set(worn=(*((-1.0, -1.0, -1.0) if beneath is None else linear(beneath)), batch.finish.look.worn_m))
         shape.draw(count)
 
-    def shade(self, view: View, height: int, *, mirrored: bool = False) -> None:
+    def shade(self, view: View, height: int, *, mirrored: bool = False, from_metal: bool = False) -> None:
         """Draw everything opaque with its own material.
 
         `mirrored` draws the world's mirror image, in less detail and without the ground. Glossy things are drawn in less
-        detail, too: `shade_mirrors` draws them again.
+        detail, too: `shade_mirrors` draws them again. `from_metal`: all in less detail, each with its distance.
         """
         with gl.FarSides(mirrored) as far_sides:
             for batch in self.batches(ground=not mirrored):
                 far_sides.hide(batch.shape[0] in CLOSED)
                 for shape, part, count in self._stretches(batch, view, height):
-                    self._shade(part, shape, count, simple=mirrored or glossy(batch))
+                    simple = mirrored or from_metal or self._waits(batch)
+                    self._shade(part, shape, count, simple=simple, from_metal=from_metal)
             far_sides.hide(False)
+            if from_metal:  # what is soft moves
+                return
             for shape, part, count in self._fitted(view, height):
                 self._shade(part, shape, count, simple=mirrored)
 
     def mirrors(self) -> list[Batch]:
         """Batches so glossy that neighbours show in them."""
-        return [batch for batch in self.batches(walls=False) if glossy(batch)]
+        return [batch for batch in self.batches(walls=False) if self._waits(batch)]
+
+    def _waits(self, batch: Batch) -> bool:
+        return glossy(batch) and not (self.metal_alone and metal(batch))
 
     def shade_mirrors(self, view: View, height: int) -> None:
         """Draw glossy things with the reflection of the picture so far."""

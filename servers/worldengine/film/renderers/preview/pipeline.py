@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from OpenGL import GL
 
-from worldkit.materials import look
 from worldkit.settings import STUDIO, Light
 
 from ...carrying import Surfaces
@@ -21,9 +20,10 @@ from ...gobos import slide
 from ...panel_lights import of_model
 from ...treatment import PLAIN, Treatment
 from . import gl, room
+from .around_metal import SIDE, UNIT, AroundMetal
 from .develop import Developer
 from .eye import View, of_camera
-from .finish import Finish, linear
+from .finish import linear
 from .first_seen import FirstSeen
 from .focus import Focus
 from .lamp_maps import LampLight
@@ -33,7 +33,7 @@ from .painter import Painter
 from .scenery import light_rows, own_lights, panel_rows, setting_of, space_of
 from .shadows import ShadowMap, covered
 from .surroundings import Surroundings, irradiance, noise_map, slide_map
-from .things import FLOATS, SIDE_MODE, Batch, Things
+from .things import FLOATS, Batch, Things
 
 if TYPE_CHECKING:
     import mujoco
@@ -125,9 +125,11 @@ class Pipeline:
         self.room_extent: tuple[np.ndarray, np.ndarray] | None = None
         walls, wall_rows = self._build_room(rest) if self.setting.name == "room" else ([], np.zeros((0, FLOATS)))
         self.painter = Painter(model, self.setting.index, self.things, walls, wall_rows.astype(np.float32), height)
-        self._skies: dict[int, gl.Program] = {}
+        self._skies: dict[tuple[int, int], gl.Program] = {}
         self._depth_program = gl.Program("thing.vert", "shadow.frag", FULL=0)
         self.lamps = LampLight(model, self.things, self.lights)
+        self._metal, self._rest = AroundMetal(model, self.things, rest), rest
+        self.painter.metal_alone = self._metal.any and not self._metal.searches
         self._first_seen = FirstSeen(model, self.painter, width, height, RANK_STEP)
 
     def _weigh(self) -> None:
@@ -168,29 +170,7 @@ class Pipeline:
         self.room_extent = room.extent(self.low, self.high, np.array(rest.cam_xpos).reshape(-1, 3))
         low, high = self.room_extent
         panels = room.panels(low, high, self.floor_z, self.setting.key.azimuth_deg)
-        looks = sorted({panel.look for panel in panels})
-        start = len(self.things.rows)
-        rows: list[np.ndarray] = []
-        walls = []
-        for name in looks:
-            entry = look("plastic_white" if name == "window_light" else name)
-            finish = Finish(entry)
-            batch = Batch(("box", -1), finish, False, first=start + len(rows))
-            for panel in (p for p in panels if p.look == name):
-                row = np.zeros(FLOATS, dtype=np.float32)
-                row[[0, 5, 10]] = 1.0
-                row[[3, 7, 11]] = panel.centre
-                row[12:15] = panel.half
-                row[16:20] = *linear(panel.rgba[:3]), 1.0
-                row[20:24] = entry.roughness, 0.0, entry.coat, 0.0
-                row[24:28] = 1.0 / entry.tile_m, entry.relief_m, SIDE_MODE, 0.0
-                row[28:32] = -1.0, 4.5 if name == "window_light" else 0.0, 0.0, 0.004
-                row[32:36] = *self.ground_mean(), self.floor_z
-                row[36:40] = 0.0, 0.0, 1e3, 0.0
-                rows.append(row)
-                batch.rows.append(batch.first + len(batch.rows))
-            walls.append(batch)
-        return walls, np.array(rows)
+        return room.batches(panels, len(self.things.rows), self.ground_mean(), self.floor_z)
 
     def ground_mean(self) -> tuple[float, float, float]:
         """Scene-linear mean colour of the ground."""
@@ -212,7 +192,7 @@ class Pipeline:
             "fade": (self.centre[0], self.centre[1], setting.fade[0] * span, setting.fade[1] * span),
             "pool": (self.centre[0], self.centre[1], setting.pool[0] * self.radius, setting.pool[1] * self.radius),
             "near_m": view.near_m, "march": stage.quality.march, "stride": 1.0 + 4.4 / stage.quality.march,
-            "blockers": stage.quality.blockers, "filters": stage.quality.filters, "to_gobo": self._to_slide(),
+            "blockers": stage.quality.blockers, "filters": stage.quality.filters, "to_gobo": self._to_slide(), **self._metal.uniforms(),
         }  # fmt: skip
 
     def _to_slide(self) -> np.ndarray:
@@ -239,14 +219,19 @@ class Pipeline:
         told = self._treatment
         colour = (0.0, 0.0, 0.0) if told.fog_rgb is None else tuple(linear(told.fog_rgb))
         density = 0.0 if told.fog_rgb is None else told.fog_density
-        return {"fog": (*colour, density), "fog_height": told.fog_height_m, "fog_floor": self.floor_z}
+        return {
+            "fog": (*colour, density),
+            "fog_height": told.fog_height_m,
+            "fog_over": told.fog_over_m,
+            "fog_floor": self.floor_z,
+        }
 
-    def _sky(self, rays: np.ndarray, eye: np.ndarray) -> None:
-        index = self.setting.index
-        if index not in self._skies:
-            self._skies[index] = gl.Program("screen.vert", "sky.frag", BAKE=0, SETTING=index)
+    def _sky(self, rays: np.ndarray, eye: np.ndarray, bake: int = 0) -> None:
+        key = self.setting.index, bake
+        if key not in self._skies:
+            self._skies[key] = gl.Program("screen.vert", "sky.frag", BAKE=bake, SETTING=key[0])
         air = self._air() | {"eye": eye}
-        program = self._skies[index].use().set(depth=0.0, rays=rays, **self._sky_uniforms, **air)
+        program = self._skies[key].use().set(depth=0.0, rays=rays, **self._sky_uniforms, **air)
         program.texture("noise_map", 3, self._noise)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
 
@@ -282,6 +267,8 @@ class Pipeline:
         stage = self._stages[quality]
         painter, height = self.painter, stage.height
         view = of_camera(self.model, data, camera, self.width, self.height)
+        if self._metal.any and self._metal.stale(data, (self._treatment.lit, self._air()["fog"])):
+            self._look_around_metal(stage)
         painter.upload(data)
         low, high = self.things.bounds(data)
         everything = np.minimum(low, self.low), np.maximum(high, self.high)
@@ -337,7 +324,34 @@ class Pipeline:
             "behind_depth": (12, behind.depth if behind else black),
         }
         out |= self._slide() | self.lamps.textures
+        out |= {"cube": (UNIT, self._metal.map)} if self._metal.any and self._metal.map else {}
         return out | {"reflection": (10, stage.mirror.colour)} if reflecting and stage.mirror else out
+
+    def _look_around_metal(self, stage: Stage) -> None:
+        """Draw the standing world from where the metal is."""
+        painter, place = self.painter, self._metal.place
+        painter.upload(self._rest, self._metal.hidden)
+        far = float(np.linalg.norm(np.maximum(self.high - place, place - self.low)))
+        stage.shadow.draw(
+            self._key, self.setting.key_spread, place, min(far, 3.0 * self.radius), (place, far),
+            lambda program: painter.draw(program, None, SIDE, flipped=True, ground=False, walls=False),
+        )  # fmt: skip
+
+        def face(view: View) -> None:
+            self._open(view, SIDE)
+            uniforms = self._uniforms(stage, view, self._rest, (SIDE, SIDE)) | {
+                "blockers": 4,
+                "filters": 6,
+                "lamp_count": 0,
+            }
+            textures = {n: t for n, t in self._textures(stage, False).items() if n != "cube"}
+            painter.prepare(uniforms, textures, stage.shadow)
+            painter.shade(view, SIDE, from_metal=True)
+            GL.glColorMask(True, True, True, False)
+            self._sky(view.rays(), view.eye, 3)
+            GL.glColorMask(True, True, True, True)
+
+        self._metal.draw(face)
 
     def _reflect(self, stage: Stage, view: View, data: mujoco.MjData) -> None:
         """Draw the world mirrored at the ground, with coarser copies for duller floors."""

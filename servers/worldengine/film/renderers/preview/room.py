@@ -9,6 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from worldkit.materials import look
+
+from .finish import Finish, linear
+from .things import FLOATS, SIDE_MODE, Batch
+
 Vector = tuple[float, float, float]
 Rgba = tuple[float, float, float, float]
 
@@ -69,7 +74,7 @@ def panels(low: np.ndarray, high: np.ndarray, floor_z: float, window_azimuth_deg
             half = (t, hy + t, (high_z - low_z) / 2) if axis == 0 else (hx + t, t, (high_z - low_z) / 2)
             return centre, half
 
-        for out_m, low_z, high_z, look, colour in (
+        for out_m, low_z, high_z, name, colour in (
             (0.0, z0, z1, "plaster", WALL),
             (0.008, z0, z0 + dado, "plaster", DADO),
             (0.026, z0 + dado, z0 + dado + 0.045, "plastic_white", TRIM),
@@ -77,7 +82,7 @@ def panels(low: np.ndarray, high: np.ndarray, floor_z: float, window_azimuth_deg
             (0.045, z1 - 0.09, z1, "plastic_white", TRIM),
         ):
             centre, half = slab(out_m, low_z, high_z)
-            out.append(Panel(centre, half, look, colour))
+            out.append(Panel(centre, half, name, colour))
     angle = np.radians(window_azimuth_deg)
     axis = 0 if abs(np.cos(angle)) > abs(np.sin(angle)) else 1
     sign = 1.0 if (np.cos(angle), np.sin(angle))[axis] > 0 else -1.0
@@ -98,3 +103,29 @@ def panels(low: np.ndarray, high: np.ndarray, floor_z: float, window_azimuth_deg
         out.append(pane(0, up, wide + 0.03, 0.03, 0.06, "plastic_white", TRIM))
     out.append(pane(0, -tall - 0.05, wide + 0.10, 0.02, 0.16, "plastic_white", TRIM))
     return out
+
+
+def batches(
+    panels: list[Panel], start: int, ground: tuple[float, float, float], floor_z: float
+) -> tuple[list[Batch], np.ndarray]:
+    """Batches of the panels by look, and their rows (N, 40) from row `start` on; `ground` is the mean colour of what they stand on."""
+    rows: list[np.ndarray] = []
+    walls = []
+    for name in sorted({panel.look for panel in panels}):
+        entry = look("plastic_white" if name == "window_light" else name)
+        batch = Batch(("box", -1), Finish(entry), False, first=start + len(rows))
+        for panel in (p for p in panels if p.look == name):
+            row = np.zeros(FLOATS, dtype=np.float32)
+            row[[0, 5, 10]] = 1.0
+            row[[3, 7, 11]] = panel.centre
+            row[12:15] = panel.half
+            row[16:20] = *linear(panel.rgba[:3]), 1.0
+            row[20:24] = entry.roughness, 0.0, entry.coat, 0.0
+            row[24:28] = 1.0 / entry.tile_m, entry.relief_m, SIDE_MODE, 0.0
+            row[28:32] = -1.0, 4.5 if name == "window_light" else 0.0, 0.0, 0.004
+            row[32:36] = *ground, floor_z
+            row[36:40] = 0.0, 0.0, 1e3, 0.0
+            rows.append(row)
+            batch.rows.append(batch.first + len(batch.rows))
+        walls.append(batch)
+    return walls, np.array(rows)

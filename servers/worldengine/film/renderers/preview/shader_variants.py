@@ -45,6 +45,10 @@ class Features:
     """It omits relief, contact shadows and fine glints, as mirror images do."""
     hazed: bool
     """Air hides what of it is far."""
+    metal: bool = False
+    """It mirrors what stands and moves around metal."""
+    from_metal: bool = False
+    """It is drawn as metal sees it, with its distance."""
 
 
 def features(
@@ -60,6 +64,8 @@ def features(
     gobo: bool,
     coloured: bool,
     hazed: bool,
+    around_metal: bool = False,
+    from_metal: bool = False,
 ) -> Features:
     """The features that a batch needs."""
     look, kind = batch.finish.look, batch.shape[0]
@@ -87,6 +93,8 @@ def features(
         thin=round(100 * look.thin),
         simple=simple,
         hazed=hazed,
+        metal=around_metal and not simple and metal(batch),
+        from_metal=from_metal,
     )
 
 
@@ -95,6 +103,12 @@ def glossy(batch: Batch) -> bool:
     look = batch.finish.look
     polished = look.roughness < 0.3 and (look.metallic > 0.5 or look.coat >= 0.4)
     return polished and not batch.clear and batch.shape[0] != "disc"
+
+
+def metal(batch: Batch) -> bool:
+    """Whether a batch is of bare metal that shows what is around it, sharp or soft."""
+    look = batch.finish.look
+    return look.metallic > 0.5 and look.roughness < 0.5 and not batch.clear and batch.shape[0] != "disc"
 
 
 class Variants:

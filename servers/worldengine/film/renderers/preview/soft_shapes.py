@@ -14,6 +14,7 @@ from worldkit.moved_shapes import at_rest
 
 from ....recording import point_colours
 from .closed_flexes import ClosedFlex, closed
+from .finish import of_material
 
 if TYPE_CHECKING:
     import mujoco
@@ -119,8 +120,10 @@ class SoftShapes:
                     material = int(model.flex_matid[model.flex_elemadr[number]])
                 colours = self._of_flex(number, data, corners)
                 for piece, ((points, normals), own) in enumerate(zip(pieces, colours, strict=True)):
-                    key = ("flex", number, piece)
-                    patches.append(Patch(key, points, normals, None, material, rgba, FLEX - number, own))
+                    key, finish = ("flex", number, piece), material
+                    if piece and own is not None and material >= 0 and of_material(model, material).look.clear > 0:
+                        finish, rgba = -1, np.append(own.mean(axis=0), 1.0)  # foam and motes of a clear liquid
+                    patches.append(Patch(key, points, normals, None, finish, rgba, FLEX - number, own))
             elif geom.type == kinds.mjGEOM_SKIN:
                 first, count = int(scene.skinvertadr[number]), int(scene.skinvertnum[number])
                 points, normals = (

@@ -150,7 +150,7 @@ def _fogged(
     mean = np.where(np.abs(x) < 1e-3, 1.0, -np.expm1(-np.clip(safe, -50, 50)) / safe)
     over = max(float(eye[2]) - scene.floor_z, 0.0)
     thing = 1.0 - np.exp(-told.fog_density * reach * np.exp(-over / height) * mean)
-    high = min(height, 120.0)
+    high = told.fog_over_m
     sky = 1.0 - np.exp(-told.fog_density * np.exp(-over / high) * high / np.maximum(ways[..., 2], 0.002))
     return fog, thing, sky
 

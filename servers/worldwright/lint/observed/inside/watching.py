@@ -7,6 +7,7 @@
 
 import ast
 import faulthandler
+import gc
 import json
 import os
 import sys
@@ -100,6 +101,7 @@ def main(path: str, out: Path, watched: bool) -> None:
     sys.modules["__main__"] = module
     threading.excepthook = lambda *_: None
     end: dict[str, Any] = {"ended": True}
+    gc.freeze()  # at the end all objects are looked through, of which those before the program are by far the most
     try:
         exec(code, vars(module))
     except engine.Enough:

@@ -91,4 +91,6 @@ def _loop(view: PlanView, joint: Joint, place: Place) -> Iterator[Problem]:
     asked += ["an initial motion"] if joint.name in plan.simulation_parameters.initial_motion else []
     if asked:
         message = f"{joint.name} closes a loop on {joint.child}, and a constraint cannot have {', '.join(asked)}"
-        yield view.at(place, message, f"list it before the other joint of {joint.child}: then that one closes the loop")
+        first = next(one for one in plan.topology.joints if one.child == joint.child)
+        other = f"{joint.child}, {first.name}, by which {first.parent} carries it"
+        yield view.at(place, message, f"list it before the other joint of {other}: then that one closes the loop")

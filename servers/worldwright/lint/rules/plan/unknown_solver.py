@@ -18,6 +18,7 @@ from typing import Any
 from worldkit.laws import WORLD
 
 from ....model.plan.declared_inputs import Beside, Constant, Intervention
+from ....model.plan.imported import inner
 from ...case import Changes
 from ...harm import Measured
 from ...plan_view import Place, PlanView
@@ -54,6 +55,7 @@ def _twice(plan: dict[str, Any]) -> dict[str, Any]:
     return {**plan, "simulation_parameters": {"interventions": plan["simulation_parameters"]["interventions"] * 2}}
 
 
+HAND = {"name": "hand", "type": "sculpt", "filename": "sculpt/hand.py", "size": [0.2, 0.1, 0.1], "material": "wood"}
 NAMELESS = {"kind": "solver", "bodies": ["crate"], "law": "3 N of air", "source": "a table"}
 
 
@@ -85,6 +87,7 @@ GOOD: Changes = (
     _with(),
     _banded("crate"),
     _banded("crate", "world"),
+    {**_banded("crate", "hand_thumb"), "assets": [HAND]},
     _filled(),
     _charged(1e-6, -2e-6),
 )
@@ -219,7 +222,9 @@ def _law_problems(view: PlanView, row: Intervention, said: Beside, drawn: set[st
             yield view.at(
                 place, f"`{said.name}` acts on `{body}` twice", "name it once: its forces are one row for each body"
             )
-        if body != WORLD and body not in view.rows:
+        if (
+            body != WORLD and body not in view.rows and not body.startswith(inner(view.plan))
+        ):  # a part of a sculpture is known later
             yield view.at(
                 place, f"`{said.name}` acts on `{body}`, which the plan does not have", "name its objects, or `world`"
             )

@@ -156,3 +156,28 @@ vec3 sky(vec3 d, bool lamp) {
     return night(d, lamp);
 #endif
 }
+
+uniform float sky_indoors;
+
+// What metal shows of the surroundings. A plain grey would make pearl of it: indoors a photographer's dark room is around it, with
+// a window toward the light and a strip across from it.
+vec3 before_metal(vec3 d) {
+    vec3 c = sky(d, true);
+#if SETTING == 4
+    if (sky_indoors > 0.0) {
+        vec3 plain = c;
+        float bright = dot(c, vec3(0.333));
+        c *= mix(0.42, 0.85, smoothstep(0.35, 0.95, d.z)) * mix(0.55, 1.0, smoothstep(0.0, 0.22, abs(d.z)));
+        vec3 window = normalize(vec3(normalize(key_direction.xy + 1e-5), 0.55));
+        float pane = panel(d, window, vec2(0.40, 0.34), 0.012);
+        vec3 across = normalize(cross(window, vec3(0.0, 0.0, 1.0)));
+        vec2 q = vec2(dot(d, across), dot(d, cross(across, window))) / max(dot(d, window), 0.1);
+        pane *= smoothstep(0.016, 0.03, abs(q.x)) * smoothstep(0.016, 0.03, abs(q.y));
+        c += (0.9 * key_colour + 1.2 * bright) * pane;
+        vec3 aside = normalize(vec3(normalize(vec2(-key_direction.y, key_direction.x) + 1e-5), 0.30));
+        c += 1.5 * bright * panel(d, aside, vec2(0.10, 0.55), 0.03);
+        c = mix(plain, c, sky_indoors);
+    }
+#endif
+    return c;
+}

@@ -156,6 +156,10 @@ float glint(float nl, float nv, float nh, float roughness) {
 
 float fifth(float x) { float y = x * x; return y * y * x; }
 
+#if METAL
+#include "metal.glsl"
+#endif
+
 // The four nearest texels, each as far as it lies at the same distance: coarse shade without halos around things.
 float occlusion(vec2 at, float distance_m) {
     vec2 f = fract(at * vec2(textureSize(shade, 0)) - 0.5);
@@ -304,6 +308,9 @@ void main() {
     vec3 h = normalize(v + key_direction);
     vec3 fresnel = f0 + (1.0 - f0) * fifth(1.0 - max(dot(v, h), 0.0));
     float wide = clamp(roughness + 0.35 * key_spread, 0.05, 1.0);
+#if METAL
+    wide = max(wide, 0.13);  // a sun in a mirror is less than a pixel: so much of it glares
+#endif
     float sharp = mix(smoothstep(0.16, 0.45, roughness), 1.0, key_sharp);
     vec3 light = diffuse * key_colour * direct * visible;
 #if THIN
@@ -382,8 +389,20 @@ void main() {
 #else
     vec3 mirror = mirrored_light(reflect(-v, n), roughness, support, world, extent);
 #endif
+#if METAL
+#if RELIEF
+    vec3 even = normalize(mix(flat_normal, n, 0.3));  // the rest of its relief is in its roughness
+#else
+    vec3 even = n;
+#endif
+    mirror = metal_mirror(world, reflect(-v, even), roughness, extent, misc.x);
+#endif
 #if MIRROR
-    vec4 seen = seen_along(world, reflect(-v, n), support, extent);
+    vec4 seen = vec4(0.0);
+#if METAL
+    if (searches == 1)
+#endif
+    seen = seen_along(world, reflect(-v, n), support, extent);
     seen.a *= 1.0 - smoothstep(0.15, 0.40, roughness);
     mirror = mix(mirror, seen.rgb, seen.a);
 #endif
@@ -459,5 +478,8 @@ void main() {
     c = mix(c, sky(normalize(vec3(-v.xy, 0.02)), false), 0.95 * (1.0 - exp(-max(range - 12.0, 0.0) / haze_m)));
 #endif
     c = fogged(c, eye, world);
+#if FROM_METAL
+    alpha = range;
+#endif
     colour = vec4(min(c, vec3(24.0)), alpha);
 }

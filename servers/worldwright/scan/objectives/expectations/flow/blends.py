@@ -2,7 +2,7 @@
 
 Measures of the points that went at least `moved_m` from where they lay at the start of the window the share whose colour, the mean of
 a point and its five nearest, is farther than `apart` from every colour that any point had then, at the end less at the start.
-A medium is named by what shows it; its law tells `colours`. Source: intensity of segregation, Danckwerts 1952.
+A medium is named by what shows it; its law tells `colours`: that they blend is by its word, as nothing else holds them. Source: intensity of segregation, Danckwerts 1952.
 """
 
 import numpy as np
@@ -49,7 +49,7 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
     if len(moved) < NEAREST:
         raise UnknowableError(f"no point of {given.medium} goes {given.moved_m:g} m", next_move="pour it, or stir it")
     before, ends = (_blended(p[moved], c[moved], known, given.apart) for p, c in ((first, colours), (last, after)))
-    told = f"{ends:.1%} of what moved of {given.medium} has a colour that none of it began with, {before:.1%} at first"
+    told = f"{ends:.1%} of what moved of {given.medium} has a colour that none of it began with, {before:.1%} at first, by its law's word"
     return at_least(ends - before, given.min_share, "1", told)
 
 
