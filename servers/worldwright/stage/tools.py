@@ -235,8 +235,9 @@ def cancel(run: RunName, job: JobName = None) -> JobStatus:
     """Stop a job, or without one every pass that runs (no audit), and everything it started. Earlier evidence is untouched."""
     folder = Run.find(run)
     found = [] if job else [one for one in Job.all(folder) if not (one.spec.variant or one.read().ended)]
-    first = next((one for one in found if one.read().state == "running"), None)
-    first = first or (found[0] if found else Job.find(folder, job))
+    # Told is the oldest that runs, or is about to: others wait for it.
+    first = next((one for one in reversed(found) if one.read().state == "running"), None)
+    first = first or (found[-1] if found else Job.find(folder, job))
     for one in found or [first]:  # the newest first, as it may wait for an older one
         one.cancel()
     others = tuple(f"ended with it: {one.folder.name}" for one in found if one is not first)

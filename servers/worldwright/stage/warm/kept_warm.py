@@ -36,6 +36,7 @@ WITHOUT_EFFECT = (
     "PYTHONIOENCODING",
     "PYTHONSAFEPATH",
     "PYTHONNOUSERSITE",
+    *("OPENBLAS_CORETYPE", "OPENBLAS_L2_SIZE"),  # of linear algebra, which no supervisor does; no engine is given them
 )
 AT_START = ("PYTHON", "LD_", "GLIBC_", "MALLOC_", "OPENBLAS_", "OMP_", "MKL_", "NPY_")
 """Beginnings of variables that a process reads when it starts, and never again."""

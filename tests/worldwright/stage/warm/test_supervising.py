@@ -131,6 +131,7 @@ print([one.__qualname__ for one in kept if one.__module__.startswith(ours)], len
 @pytest.mark.parametrize(("name", "value", "alike"), [
     ("PYTHONHASHSEED", "0", True), ("PYTHONHASHSEED", "7", False), ("PYTHONOPTIMIZE", "1", False), ("LD_PRELOAD", "/x", False),
     ("PYTHONPATH", "/elsewhere", False), ("PYTHONUNBUFFERED", "1", True), ("HOME", "/x", True), ("NPY_DISABLE_CPU_FEATURES", "AVX2", False),
+    ("OPENBLAS_CORETYPE", "Haswell", True), ("OPENBLAS_NUM_THREADS", "4", False),
 ])  # fmt: skip
 def test_an_environment_that_an_interpreter_reads_at_its_start_must_be_the_nurserys(name, value, alike):
     assert kept_warm.starts_alike({name: value}) == alike
