@@ -115,7 +115,8 @@ def _worn(
     back = np.array(thing["quat"], dtype=float) * (1, -1, -1, -1)
     around = (np.abs(turned(back[None], away[None])[0]) <= size / 2).all()
     longest, sides = 2 * half.max(axis=1), np.sort(2 * half, axis=1)
-    unlike = np.abs(np.log(np.sort(size) / sides)).max(axis=1)  # by its side that differs most
+    with np.errstate(divide="ignore"):  # a flat sheet has a side of nothing, and is unlike all that has three
+        unlike = np.abs(np.log(np.sort(size) / sides)).max(axis=1)  # by its side that differs most
     return bool(
         (around or (np.abs(away) <= half[own]).all())
         and LIKE * longest[own] <= size.max() <= longest[own] / LIKE
