@@ -190,3 +190,28 @@ def test_a_rolling_cylinder_swings_but_spins_no_more_than_so_much(most):
     left = found[1, :, :3] @ np.linalg.inv(now[1, :, :3])
     assert np.arccos(np.clip((np.trace(left) - 1) / 2, -1, 1)) == pytest.approx(min(most, angle), abs=1e-6)
     assert np.array_equal(found[2], then[2]) and np.array_equal(found[:, :, 3], then[:, :, 3])
+
+
+def test_a_string_beside_a_disk_that_spins_does_not_go_round_with_it():
+    """A yo-yo's string was spread beside it like a fan."""
+    picture, shown = scene()
+    picture[SQUARE], shown.things[SQUARE], shown.depth[SQUARE] = 90, WALL, 4.0
+    y, x = np.mgrid[: SIZE[0], : SIZE[1]]
+    disk, string = np.hypot(y - 59.5, x - 79.5) < 24, (np.abs(x - 79.5) < 2) & (y < 37)
+    for here, thing, colour in ((disk, MOVER, (220, 30, 30)), (string, FRONT_POST, (20, 20, 220))):
+        picture[here], shown.things[here], shown.depth[here] = colour, thing, 2.0
+    poses = REST.copy()
+    c, s = np.cos(1.5), np.sin(1.5)
+    poses[MOVER, :, :3] = [[c, 0, s], [0, 1, 0], [-s, 0, c]]
+    poses[FRONT_POST, 2, 3] += 0.02
+    smeared = streaks.streaked(picture, shown, poses, view()).astype(int)
+    beside = ~disk & ~string & (np.hypot(y - 59.5, x - 79.5) > 27)
+    assert np.abs(smeared - picture)[beside & (y < 60)].max() < 12
+
+
+@pytest.mark.parametrize(("then", "goes"), [((0.1, 0, 0.99), True), ((0, 0, -1), False), ((0, 0, 1.5), False)])
+def test_a_piece_of_a_string_is_the_same_at_another_moment_where_it_lies_as_it_lay(then, goes):
+    now, other = at((0.0, 0, 0)), at((0.3, 0, 0))
+    other[0, :, 2] = then
+    found = round_things.spun(now, other, np.array([round_things.OF_A_STRING]))
+    assert np.allclose(found[0, :, 3], other[0, :, 3] if goes else now[0, :, 3])

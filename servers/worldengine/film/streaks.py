@@ -26,6 +26,8 @@ FEWEST, MOST = 3, 24
 """Places that are added up."""
 LONGEST = 0.15
 """No streak is longer than this share of the picture's height: a longer one would be steps."""
+KIN = 0.02, 0.002
+"""What turns as another thing but for so much, and goes as it does but for so many m, is a part of the same."""
 LIGHT = (np.arange(256, dtype=np.float32) / 255) ** 2.2
 STEPS = 4095
 SHADE = np.rint(255 * (np.arange(STEPS + 1) / STEPS) ** (2 / 2.2)).astype(np.uint8)
@@ -55,9 +57,11 @@ def streaked(picture: np.ndarray, now: Surfaces, poses: np.ndarray, view: View, 
         return found
     goers = _goers(now, poses, view, mover, share)
     part = goers.around(height, width)
+    kin = _kin(now.poses, poses)
     own = LIGHT[picture[part]]
     around = own if light is None else light[part]
-    rows, columns, smeared = _over(own, around, now.near[part], mover[part], goers.moved(part))
+    theirs = np.where(mover[part], kin[now.things[part]], -1)
+    rows, columns, smeared = _over(own, around, now.near[part], theirs, goers.moved(part), kin[goers.things])
     found = found.copy()
     found[part][rows, columns] = _shade(smeared)
     return found
@@ -74,6 +78,8 @@ class Goers(NamedTuple):
     """How its way bends, pixels: at a share s of it, from -1/2 to 1/2, it is s * way + s² * bow beside its middle; float32 (N, 2)."""
     depth: np.ndarray
     """How far away it is, m (N,)."""
+    things: np.ndarray
+    """Number of what comes there (N,)."""
     round: np.ndarray
     """Where the thing is round, and turns (R,): numbers of these pixels; its outline goes otherwise than its pattern."""
     outline: tuple[np.ndarray, np.ndarray]
@@ -112,6 +118,18 @@ def _movers(now: Surfaces, poses: np.ndarray) -> np.ndarray:
     moves = np.zeros(len(now.poses) + 1, bool)  # the last one stands for -1
     moves[:count] = np.abs(now.poses[:count] - poses[:count]).reshape(count, -1).max(axis=1) > carrying.LEAST_M
     return np.asarray(moves[now.things])
+
+
+def _kin(now: np.ndarray, then: np.ndarray) -> np.ndarray:
+    """Which things go as one between two moments: a number of each, and -1 at the end, of none (N + 1,)."""
+    count = min(len(now), len(then))
+    turn, step = carrying.motion(now[:count], then[:count])
+    rough = np.rint(np.column_stack([turn.reshape(count, 9) / KIN[0], step / KIN[1]]))
+    found = np.arange(len(now) + 1)
+    found[:count] = np.unique(rough, axis=0, return_inverse=True)[1].ravel()
+    found[count:] += count
+    found[-1] = -1
+    return found
 
 
 def _of_camera(now: Surfaces, turn: np.ndarray, step: np.ndarray) -> np.ndarray:
@@ -173,7 +191,7 @@ def _goers(now: Surfaces, poses: np.ndarray, view: View, mover: np.ndarray, shar
     if len(some):
         own = _ways(now, held, view, rows[some], columns[some], things[some], depth[some], share)
         outline = _shortened_arc(*own, longest)
-    return Goers(rows, columns, ways, bows, depth, some, outline)
+    return Goers(rows, columns, ways, bows, depth, things, some, outline)
 
 
 def _shortened_arc(ways: np.ndarray, bows: np.ndarray, longest: float) -> tuple[np.ndarray, np.ndarray]:
@@ -211,7 +229,7 @@ def _ways(
 
 
 def _over(
-    own: np.ndarray, around: np.ndarray, near: np.ndarray, mover: np.ndarray, goers: Goers
+    own: np.ndarray, around: np.ndarray, near: np.ndarray, movers: np.ndarray, goers: Goers, kin: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """What moves, smeared over what is around it: rows, columns, and light (N, 3).
 
@@ -219,11 +237,16 @@ def _over(
         own: light, that of what moves as it is.
         around: light of what stands still.
         near: 1 / distance of what is seen, 1/m.
-        mover: where something moves.
+        movers: what moves where, by `_kin`, -1 where nothing does.
         goers: the pixels that it comes to.
+        kin: what comes to each of them.
     """
     import cv2
 
+    mover = movers >= 0
+    # Beside what moves: another that is seen there, as the string of a yo-yo, does not go round with it.
+    beside = np.flatnonzero(~mover[goers.rows, goers.columns])
+    others = movers.astype(np.float32)
     mine = mover.astype(np.float32)
     four = cv2.merge([*cv2.split(own * mine[..., None]), mine])
     soft = cv2.blur(four, (3, 3)) if len(goers.round) else four  # an outline that stays where it is would be stairs
@@ -234,6 +257,9 @@ def _over(
     for share in _taps(goers.ways):
         at = goers.origins(share)
         part = _read(four, at, cv2.INTER_LINEAR)
+        if len(beside):
+            seen = _read(others, (at[0][beside], at[1][beside]), cv2.INTER_NEAREST)[:, 0]
+            part[beside[(seen >= 0) & (seen != kin[beside])]] = 0.0
         if len(goers.round):
             own_places = goers.outlines(share)
             part[goers.round] = _within(part[goers.round], _read(soft, own_places, cv2.INTER_LINEAR))

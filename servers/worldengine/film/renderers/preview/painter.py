@@ -11,6 +11,7 @@ from OpenGL import GL
 
 from worldkit.materials.look import NOTHING
 
+from ...round_things import OF_A_STRING
 from . import gl, swarms
 from .eye import View
 from .far_first import far_first
@@ -97,7 +98,11 @@ class Painter:
     def rounds(self) -> np.ndarray:
         """How each thing is round, by `round_things` (N,)."""
         own = self.things.rounds
-        return np.concatenate([own, np.zeros(max(len(self._rows) - len(own), 0), int)])
+        rounds = np.concatenate([own, np.zeros(max(len(self._rows) - len(own), 0), int)])
+        for shape, batch, count in self._soft(None):
+            if shape is None:
+                rounds[batch.first : batch.first + count] = OF_A_STRING
+        return rounds
 
     def numbers(self) -> np.ndarray:
         """The number of each thing, -1 of what has no shape of its own, and at last -1 of none: int32 (N + 1,)."""
