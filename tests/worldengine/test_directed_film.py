@@ -622,6 +622,18 @@ def test_an_open_shutter_takes_one_picture_where_nothing_moves_and_more_where_mu
         assert np.array_equal(pictures[1], screening.picture(15)), "the same frame, the same moments"
 
 
+def test_a_larger_picture_takes_more_moments_which_its_forecast_knows(made):
+    def tell(film):
+        film.hold(still((0.0, -1.2, 0.3), (0, 0, 0.3)), 0.5, at=0.1)
+        film.shot(still((0.0, -1.2, 0.3), (0, 0, 0.3)), until=0.4)
+        film.shutter(0.3, samples=16)
+
+    with made.screening(tell) as screening:
+        tall = screening.frames.height
+        assert screening.dearer(15, tall) == 1.0 < screening.dearer(15, 8 * tall) <= 8.0
+        assert screening.dearer(3, 8 * tall) == 1.0, "what is held stays one picture"
+
+
 def test_a_film_that_says_nothing_of_its_shutter_draws_each_frame_once_and_smears_what_moves(made, monkeypatch):
     calls = []
     camera = still((0.0, -1.2, 0.3), (0, 0, 0.3))

@@ -61,9 +61,10 @@ def of_film(
             screening.picture(chosen[0][0])  # the first one also sets the stage, which takes longer
         spent = 0.0
         for done, (number, word) in enumerate(chosen):
+            dearer = screening.dearer(number, given.size[1]) if isinstance(quality, str) else 1.0
             started = time.perf_counter()
             image = screening.picture(number, quality)
-            spent += time.perf_counter() - started
+            spent += (time.perf_counter() - started) * dearer
             read = reading(screening.model, image, screening.layers(), given.movers)
             shown = {"film_s": number / given.fps, "recorded_s": float(film.arrays["time"][number])}
             rows.append(shown | {"shot": film.shot(number) + 1, "word": word, "reading": read})

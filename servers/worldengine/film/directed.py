@@ -204,6 +204,13 @@ class Screening:
             return min(most, max(1, int(quality)))
         return most if most == 1 else smear.moments(self._travel_px(frame), most)
 
+    def dearer(self, frame: int, height: int) -> float:
+        """How many times as many moments a frame of the film takes in pictures of another height: what moves goes further in large ones."""
+        if self.film.samples == 1 or self.film.shutter <= 0:
+            return 1.0
+        far, most = self._travel_px(frame), self.film.samples
+        return smear.moments(far * height / self.frames.height, most) / smear.moments(far, most)
+
     def _travel_px(self, frame: int) -> float:
         """How far anything goes in the picture while the shutter is open for a frame."""
         import numpy as np

@@ -41,15 +41,17 @@ def draw(
         screening.alone = True
         screening.picture(0)  # the first one also sets the stage, which takes longer
         began = time.perf_counter()
-        first = screening.picture(0)
+        screening.picture(0)
         each = time.perf_counter() - began
         step = max(LEAST_STEP, math.ceil(film.frames * each / max(options.within, 1.0)))
         numbers = range(0, film.frames, step)
         shown = {numbers[round(part * (len(numbers) - 1) / (CELLS - 1))] for part in range(CELLS)}
-        rows, cells = [], []
+        rows, cells, spent = [], [], 0.0
         with Video(options.out / MOVING, *size, max(1, round(given.fps / step))) as video:
             for number in numbers:
-                image = screening.picture(number) if number else first
+                dearer, began = screening.dearer(number, height), time.perf_counter()
+                image = screening.picture(number)
+                spent += (time.perf_counter() - began) * dearer
                 video.add(image)
                 if number in shown:
                     read = reading(screening.model, image, screening.layers(), given.movers)
@@ -66,6 +68,6 @@ def draw(
         "frames": film.frames,
         "drawn": len(numbers),
         "step": step,
-        "frame_s": round(each * (math.prod(given.size) / math.prod(size)) ** 0.5, 3),
+        "frame_s": round(spent / len(numbers) * (math.prod(given.size) / math.prod(size)) ** 0.5, 3),
         "film": film.told(given.fps),
     }

@@ -107,24 +107,25 @@ def complete_plan(run: Annotated[str, Field(description="The run folder, or its 
 def explain(
     code: Annotated[str, Field(description="Code or name of a rule, e.g. WL101, or of any other finding")],
 ) -> RuleDoc:
-    """What a lint rule does, why it matters, what to write instead, and its bad and good cases.
+    """What a lint rule does, why it matters, what to write instead, and some bad and good cases.
 
     Codes of place, of the plan reader and of scan are answered with what the skills say of them.
     """
-    from . import engine, told_elsewhere
+    from . import engine, shown_cases, told_elsewhere
 
     elsewhere = told_elsewhere.passage(code)
     if elsewhere is not None:
         return elsewhere
     rule = engine.find(code)
+    bad, good = shown_cases.shown(rule.BAD, rule.GOOD)
     return RuleDoc(
         code=rule.code,
         name=rule.name,
         severity=rule.SEVERITY,
         summary=rule.summary,
         documentation=rule.doc,
-        bad=tuple(map(_case_text, rule.BAD)),
-        good=tuple(map(_case_text, rule.GOOD)),
+        bad=bad,
+        good=good,
     )
 
 
@@ -253,14 +254,6 @@ def to_look_up(code: str) -> bool:
     from . import engine
 
     return engine.to_look_up(code)
-
-
-def _case_text(case: object) -> str:
-    if isinstance(case, dict):
-        import json
-
-        return json.dumps(case, indent=1)
-    return str(getattr(case, "source", case))
 
 
 check_plan.formats = check_program.formats = ("sarif", "github")  # type: ignore[attr-defined]

@@ -98,6 +98,16 @@ def together(state: State) -> tuple[tuple[str, ...], ...]:
     return tuple(map(tuple, groups.values()))
 
 
+def asked(state: State) -> str:
+    """What a verdict's `recognised` has to say, before anybody writes it; empty where nobody named anything."""
+    visual = state.visual.value
+    if visual is None or not visual.named:
+        return ""
+    rows = ", ".join(group[0] for group in (*together(state), (EVENT,)))
+    seen = "; ".join(dict.fromkeys(sighting.seen for sighting in visual.named))
+    return f"`recognised` has a row for each of {rows}; `seen_as` is copied from: {seen}; of {EVENT}: {visual.event}"
+
+
 def problems(state: State, verdict: Verdict) -> Iterator[Refusal]:
     """Why a verdict cannot stand on what was named blindly; nothing where nobody named anything."""
     visual = state.visual.value

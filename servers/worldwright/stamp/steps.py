@@ -6,7 +6,7 @@ from typing import Literal
 from ..model.evidence import approval, came, environment, handed_in, pictures_of
 from ..model.evidence.build_steps import STEPS, StepName
 from ..model.frozen import Frozen
-from . import audited, descriptions, next_repair, signing
+from . import audited, descriptions, next_repair, recognition, signing
 from .bundle import STAMP, damage
 from .state import State
 
@@ -234,7 +234,8 @@ def _review(state: State) -> Answer:
     command = f"worldwright stamp review {state.place} @verdict.json"
     verdict = state.review.value
     if verdict is None:
-        return _absent(state, state.review.problem, "review.json", command)
+        status, detail, command = _absent(state, state.review.problem, "review.json", command)
+        return status, "; ".join(filter(None, (detail, recognition.asked(state)))), command
     if verdict.outcome == "pass":
         return "holds", f"passed by {verdict.reviewer}{_how(state.came('review'))}", ""
     if verdict.outcome == "repair":
