@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from worldengine.film.drawn_frames import Frames
 from worldengine.film.film_curve import film_curve
 from worldengine.film.passes import visible
+from worldengine.film.renderers.preview import pipeline
 from worldkit import cameras, materials, scene
 
 pytestmark = pytest.mark.gl
@@ -275,6 +276,32 @@ def test_a_cloth_wears_its_material():
         assert frames.renderer == "preview", frames.reason
     red = (image[..., 0] > image[..., 1] + 30) & (image[..., 0] > image[..., 2] + 30)
     assert red.sum() > 2000
+
+
+def test_large_pictures_have_smooth_outlines(monkeypatch):
+    """Drawn once in each pixel, what is thin and slants was dashed."""
+    spec = scene.new("wires", time_step=0.002, setting="studio")
+    turn = (np.cos(0.05), 0.0, np.sin(0.05), 0.0)
+    put(spec, "wire", G.mjGEOM_CYLINDER, (0.0015, 0.5, 0), (0, 0, 0.6), "plastic_black", quat=turn)
+    cameras.add(spec, "eye", view="side_minus_y", subjects=("wire",))
+    model = spec.compile()
+    cameras.aim(model, aspect=16 / 9)
+    data = posed(model)
+
+    def stairs():
+        """How far the wire's middle is beside a straight line, pixels."""
+        with Frames(model, 960, 540) as frames:
+            image = frames.image(data, "eye", quality="video")
+        light = bright(image)[200:340, 400:560]
+        rows, across = np.arange(len(light)), np.arange(light.shape[1])
+        line = np.polyval(np.polyfit(rows, light.argmin(axis=1), 1), rows)
+        dark = np.where(np.abs(across - line[:, None]) < 4, light.max(axis=1, keepdims=True) - light - 8, 0).clip(0)
+        middle = (dark * across).sum(axis=1) / dark.sum(axis=1)
+        return np.std(middle - np.polyval(np.polyfit(rows, middle, 1), rows))
+
+    smooth = stairs()
+    monkeypatch.setattr(pipeline, "LARGE", np.inf)
+    assert smooth < 0.6 * stairs()
 
 
 def test_coplanar_faces_do_not_flicker():

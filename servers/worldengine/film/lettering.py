@@ -137,10 +137,10 @@ def _cut(text: str, size: int, weight: int, most: int) -> str:
 def _badge(image: "np.ndarray", words: str) -> None:
     """Write how fast the film runs, and what fits beside it, small and without a ground in the upper right corner."""
     height, width = image.shape[:2]
-    size, edge = max(round(height * 0.028), 11), round(height * 0.035)
+    size, edge = max(round(height * 0.024), 11), round(height * 0.035)
     words = _cut(words, size, 450, width - 2 * edge)
     wide, tall = _extent(words, size, 450)
-    _write(image, words, (width - edge - wide, edge + tall), size, 450, (250, 248, 244), 0.9)
+    _write(image, words, (width - edge - wide, edge + tall), size, 450, (250, 248, 244), 0.75)
 
 
 def labels(told: dict[str, Any]) -> tuple[str, ...]:

@@ -229,7 +229,10 @@ def cube_picture(faces: np.ndarray) -> int:
 
 
 class Target:
-    """A framebuffer of `width` x `height` with one colour texture, if any, and maybe a depth texture."""
+    """A framebuffer of `width` x `height` with one colour texture, if any, and maybe a depth texture.
+
+    One with `samples` in each pixel has a depth of its own, and its colour has them all.
+    """
 
     def __init__(
         self,
@@ -240,12 +243,23 @@ class Target:
         depth: bool = False,
         linear: bool = True,
         levels: int = 1,
+        samples: int = 0,
     ):
         self.width, self.height = width, height
         self.handle = GL.glGenFramebuffers(1)
         self.colour = self.depth = 0
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.handle)
-        if colour is not None:
+        if samples:
+            both = ((GL.GL_COLOR_ATTACHMENT0, colour), (GL.GL_DEPTH_ATTACHMENT, GL.GL_DEPTH_COMPONENT32F))
+            for place, kind in both:
+                made = GL.glGenTextures(1)
+                GL.glActiveTexture(SCRATCH_UNIT)
+                GL.glBindTexture(GL.GL_TEXTURE_2D_MULTISAMPLE, made)
+                GL.glTexImage2DMultisample(GL.GL_TEXTURE_2D_MULTISAMPLE, samples, kind, width, height, True)
+                GL.glFramebufferTexture2D(GL.GL_FRAMEBUFFER, place, GL.GL_TEXTURE_2D_MULTISAMPLE, made, 0)
+                self.colour = self.colour or made
+            depth = False
+        elif colour is not None:
             self.colour = texture(colour, width, height, linear=linear, levels=levels)
             GL.glFramebufferTexture2D(GL.GL_FRAMEBUFFER, GL.GL_COLOR_ATTACHMENT0, GL.GL_TEXTURE_2D, self.colour, 0)
         else:
@@ -263,7 +277,7 @@ class Target:
         GL.glViewport(0, 0, self.width, self.height)
 
     def blit_to(self, other: Target, depth: bool = False) -> None:
-        """Copy the colour, and the depth if asked, to `other` of the same size."""
+        """Copy the colour, and the depth if asked, to `other` of the same size; of several samples in a pixel the mean."""
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self.handle)
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, other.handle)
         what = GL.GL_COLOR_BUFFER_BIT | (GL.GL_DEPTH_BUFFER_BIT if depth else 0)

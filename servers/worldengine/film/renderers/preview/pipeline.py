@@ -72,6 +72,19 @@ def shadow_side(pixels: int, quality: Quality) -> int:
     return min(quality.shadow_pixels, max(LEAST_SHADOW, 1 << (2 * pixels - 1).bit_length()))
 
 
+LARGE, PLACES = 500_000, 4
+"""Pictures of so many pixels, unless they are drawn larger anyway, have smooth outlines: of each pixel so many places are drawn, and
+what is thin is no longer dashed. Of a processor's time 1280x720 pixels took 0.41 s instead of 0.25."""
+
+
+def _fine(width: int, height: int) -> gl.Target | None:
+    """A target with several places in each pixel; None where the driver has none."""
+    try:
+        return gl.Target(width, height, GL.GL_RGBA16F, depth=True, samples=PLACES)
+    except (RuntimeError, GL.GLError):
+        return None
+
+
 class Stage:
     """The targets of one quality."""
 
@@ -79,6 +92,8 @@ class Stage:
         w, h = width * quality.scale, height * quality.scale
         self.width, self.height, self.quality = w, h, quality
         self.picture = gl.Target(w, h, GL.GL_RGBA16F, depth=True)
+        self.drawn = (_fine(w, h) if quality.scale == 1 and w * h >= LARGE else None) or self.picture
+        """Where it is drawn: outlines at several places in a pixel, which `picture` gets the mean of."""
         self.behind: gl.Target | None = None
         self.mirror: gl.Target | None = None
         self.focus: Focus | None = None
@@ -126,6 +141,7 @@ class Pipeline:
         walls, wall_rows = self._build_room(rest) if self.setting.name == "room" else ([], np.zeros((0, FLOATS)))
         self.painter = Painter(model, self.setting.index, self.things, walls, wall_rows.astype(np.float32), height)
         self._skies: dict[tuple[int, int], gl.Program] = {}
+        self._of_places: gl.Program | None = None
         self._depth_program = gl.Program("thing.vert", "shadow.frag", FULL=0)
         self.lamps = LampLight(model, self.things, self.lights)
         self._metal, self._rest = AroundMetal(model, self.things, rest), rest
@@ -292,7 +308,7 @@ class Pipeline:
         mirrors, clear = painter.mirrors(), painter.clear()
         if (mirrors or clear) and stage.behind is None:
             stage.behind = gl.Target(stage.width, stage.height, GL.GL_RGBA16F, depth=True)
-        stage.picture.bind()
+        stage.drawn.bind()
         self._open(view, height)
         uniforms = self._uniforms(stage, view, data, (stage.width, stage.height))
         painter.prepare(uniforms, self._textures(stage, reflecting), stage.shadow)
@@ -305,6 +321,8 @@ class Pipeline:
             self._copy(stage)
             painter.shade_glass(view, height, lambda: self._copy(stage))
         scene, told = stage.picture.colour, self._treatment
+        if stage.drawn is not stage.picture:
+            self._mean(stage, self.setting.exposure * 2.0**told.grade_exposure_stops)
         if told.aperture > 0:
             if stage.focus is None:
                 stage.focus = Focus(stage.width, stage.height)
@@ -383,8 +401,21 @@ class Pipeline:
     def _copy(self, stage: Stage) -> None:
         """Copy the picture so far for mirrors and glass to read."""
         assert stage.behind is not None
-        stage.picture.blit_to(stage.behind, depth=True)
+        stage.drawn.blit_to(stage.behind, depth=True)
+        stage.drawn.bind()
+
+    def _mean(self, stage: Stage, exposure: float) -> None:
+        """Let `picture` be the mean of what was drawn at several places in each of its pixels, at the depth of one of them."""
+        stage.drawn.blit_to(stage.picture, depth=True)
+        if self._of_places is None:
+            self._of_places = gl.Program("screen.vert", "mean.frag", PLACES=PLACES)
         stage.picture.bind()
+        GL.glDisable(GL.GL_DEPTH_TEST)
+        GL.glDisable(GL.GL_BLEND)
+        program = self._of_places.use().set(depth=0.0, exposure=exposure)
+        program.texture("scene", 0, stage.drawn.colour, GL.GL_TEXTURE_2D_MULTISAMPLE)
+        GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
+        GL.glEnable(GL.GL_DEPTH_TEST)
 
     def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
         """Geom number of each pixel, -1 for none, flexes from -2 down: int32 (H, W), row 0 the top."""

@@ -1,8 +1,8 @@
 // What ambient occlusion needs: world normal and distance along the view axis.
 flat in vec4 row0, row1, row2;
-in vec3 world;
-in vec3 local;
-in vec3 local_normal;
+centroid in vec3 world;
+centroid in vec3 local;
+centroid in vec3 local_normal;
 uniform vec3 eye;
 uniform vec3 forward;
 out vec4 guide;

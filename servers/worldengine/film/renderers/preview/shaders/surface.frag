@@ -23,13 +23,13 @@ flat in vec4 weave;    // repeats per metre, relief, mode, seed
 flat in vec4 misc;     // number, emission, rank, bevel
 flat in vec4 support;  // colour and height of what lies below
 flat in vec4 more;     // vary, clear, distance to the edge of what lies below
-in vec3 world;
-in vec3 local;
-in vec3 local_normal;
-in vec2 uv;
-in float within;       // m: how thick it is here, where a corner tells it
+centroid in vec3 world;
+centroid in vec3 local;
+centroid in vec3 local_normal;
+centroid in vec2 uv;
+centroid in float within;       // m: how thick it is here, where a corner tells it
 #if COLOURED
-in vec3 own_colour;
+centroid in vec3 own_colour;
 #endif
 out vec4 colour;
 

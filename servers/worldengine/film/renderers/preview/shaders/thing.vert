@@ -5,7 +5,7 @@ layout(location = 1) in vec3 corner_normal;
 layout(location = 2) in vec2 corner_uv;
 #if COLOURED
 layout(location = 3) in vec3 corner_colour;
-out vec3 own_colour;
+centroid out vec3 own_colour;
 #endif
 
 uniform samplerBuffer things;
@@ -21,11 +21,11 @@ flat out vec4 size, base, finish, weave, misc, support, more;
 flat out vec4 row0, row1, row2;
 #endif
 flat out int thing;
-out vec3 world;
-out vec3 local;
-out vec3 local_normal;
-out vec2 uv;
-out float within;         // m: how thick it is here, where a corner tells it
+centroid out vec3 world;
+centroid out vec3 local;
+centroid out vec3 local_normal;
+centroid out vec2 uv;
+centroid out float within;         // m: how thick it is here, where a corner tells it
 
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
