@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from worldengine.film.drawn_frames import Frames
 from worldengine.film.film_curve import film_curve
 from worldengine.film.passes import visible
-from worldengine.film.renderers.preview import pipeline
+from worldengine.film.treatment import Treatment
 from worldkit import cameras, materials, scene
 
 pytestmark = pytest.mark.gl
@@ -278,7 +278,7 @@ def test_a_cloth_wears_its_material():
     assert red.sum() > 2000
 
 
-def test_large_pictures_have_smooth_outlines(monkeypatch):
+def test_outlines_are_smooth_where_a_film_wants_them():
     """Drawn once in each pixel, what is thin and slants was dashed."""
     spec = scene.new("wires", time_step=0.002, setting="studio")
     turn = (np.cos(0.05), 0.0, np.sin(0.05), 0.0)
@@ -288,9 +288,10 @@ def test_large_pictures_have_smooth_outlines(monkeypatch):
     cameras.aim(model, aspect=16 / 9)
     data = posed(model)
 
-    def stairs():
+    def stairs(outlines):
         """How far the wire's middle is beside a straight line, pixels."""
         with Frames(model, 960, 540) as frames:
+            frames.treat(Treatment(grade_outlines=outlines))
             image = frames.image(data, "eye", quality="video")
         light = bright(image)[200:340, 400:560]
         rows, across = np.arange(len(light)), np.arange(light.shape[1])
@@ -299,9 +300,7 @@ def test_large_pictures_have_smooth_outlines(monkeypatch):
         middle = (dark * across).sum(axis=1) / dark.sum(axis=1)
         return np.std(middle - np.polyval(np.polyfit(rows, middle, 1), rows))
 
-    smooth = stairs()
-    monkeypatch.setattr(pipeline, "LARGE", np.inf)
-    assert smooth < 0.6 * stairs()
+    assert stairs(1.0) < 0.6 * stairs(0.0)
 
 
 def test_coplanar_faces_do_not_flicker():

@@ -50,6 +50,8 @@ class Treatment:
     grade_vignette: float | None = None
     grade_glow: float | None = None
     grade_fade: float = 0.0
+    grade_outlines: float = 0.0
+    """1: outlines are smooth, at twice the time."""
     focus_m: float = 0.0
     """The distance that is sharp, m."""
     breeze: tuple[float, float, float] | None = None

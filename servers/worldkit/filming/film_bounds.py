@@ -27,7 +27,7 @@ LIGHT: dict[str, tuple[float, float]] = {
     "fog_density": (0, 100),
     "fog_height_m": (1e-3, 1e6), "grade_exposure_stops": (-8, 8), "grade_contrast": (0, 3), "grade_saturation": (0, 3),
     "grade_temperature": (-1, 1), "grade_tint": (-1, 1), "grade_vignette": (0, 1), "grade_glow": (0, 1),
-    "grade_fade": (0, 1),
+    "grade_fade": (0, 1), "grade_outlines": (0, 1),
 }  # fmt: skip
 """The numbers that a film may give of its light, air and developing, each with its limits."""
 NATURAL_SHUTTER = 0.5

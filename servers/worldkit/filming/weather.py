@@ -122,14 +122,17 @@ class Weather:
         vignette: float | None = None,
         glow: float | None = None,
         fade: float | None = None,
+        outlines: float | None = None,
         at: float | None = None,
     ) -> None:
         """Developing: `exposure_stops` (+1 twice the light), `contrast` and `saturation` (1: as it is), `temperature`
-        and `tint` (-1 cool or green to 1 warm or magenta), `vignette` and `glow` (0 to 1), `fade` (1: black).
+        and `tint` (-1 cool or green to 1 warm or magenta), `vignette` and `glow` (0 to 1), `fade` (1: black);
+        `outlines=1` draws edges and thin things without stairs, in twice the time and more.
         """
         self._told(
             at, grade_exposure_stops=exposure_stops, grade_contrast=contrast, grade_saturation=saturation,
             grade_temperature=temperature, grade_tint=tint, grade_vignette=vignette, grade_glow=glow, grade_fade=fade,
+            grade_outlines=outlines,
         )  # fmt: skip
 
     def _told(self, at: float | None, **values: Any) -> None:

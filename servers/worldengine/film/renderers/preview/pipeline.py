@@ -72,9 +72,9 @@ def shadow_side(pixels: int, quality: Quality) -> int:
     return min(quality.shadow_pixels, max(LEAST_SHADOW, 1 << (2 * pixels - 1).bit_length()))
 
 
-LARGE, PLACES = 500_000, 4
-"""Pictures of so many pixels, unless they are drawn larger anyway, have smooth outlines: of each pixel so many places are drawn, and
-what is thin is no longer dashed. Of a processor's time 1280x720 pixels took 0.41 s instead of 0.25."""
+PLACES = 4
+"""Where a film wants smooth outlines, so many places of each pixel are drawn: what is thin is no longer dashed. Of a processor's time a
+picture of 1280x720 pixels took 0.41 s instead of 0.25, one with hands and glass 1.0 instead of 0.4."""
 
 
 def _fine(width: int, height: int) -> gl.Target | None:
@@ -92,8 +92,7 @@ class Stage:
         w, h = width * quality.scale, height * quality.scale
         self.width, self.height, self.quality = w, h, quality
         self.picture = gl.Target(w, h, GL.GL_RGBA16F, depth=True)
-        self.drawn = (_fine(w, h) if quality.scale == 1 and w * h >= LARGE else None) or self.picture
-        """Where it is drawn: outlines at several places in a pixel, which `picture` gets the mean of."""
+        self._fine: gl.Target | None = None
         self.behind: gl.Target | None = None
         self.mirror: gl.Target | None = None
         self.focus: Focus | None = None
@@ -101,6 +100,13 @@ class Stage:
         self.occlusion = Occlusion(max(w // d, 1), max(h // d, 1), quality.occlusion_taps)
         self.shadow = ShadowMap(shadow_side(max(w, h), quality))
         self.developer = Developer(w, h)
+
+    def drawn(self, fine: bool) -> gl.Target:
+        """Where what is opaque is drawn: `fine`, at several places in a pixel, which `picture` gets the mean of. A still is fine anyway."""
+        if not fine or self.quality.scale > 1:
+            return self.picture
+        self._fine = self._fine or _fine(self.width, self.height) or self.picture
+        return self._fine
 
 
 class Pipeline:
@@ -308,21 +314,22 @@ class Pipeline:
         mirrors, clear = painter.mirrors(), painter.clear()
         if (mirrors or clear) and stage.behind is None:
             stage.behind = gl.Target(stage.width, stage.height, GL.GL_RGBA16F, depth=True)
-        stage.drawn.bind()
+        drawn = stage.drawn(self._treatment.grade_outlines > 0.5)
+        drawn.bind()
         self._open(view, height)
         uniforms = self._uniforms(stage, view, data, (stage.width, stage.height))
         painter.prepare(uniforms, self._textures(stage, reflecting), stage.shadow)
         painter.shade(view, height)
         self._sky(view.rays(), view.eye)
         if mirrors:
-            self._copy(stage)
+            self._copy(stage, drawn)
             painter.shade_mirrors(view, height)
-        if clear:
-            self._copy(stage)
-            painter.shade_glass(view, height, lambda: self._copy(stage))
         scene, told = stage.picture.colour, self._treatment
-        if stage.drawn is not stage.picture:
-            self._mean(stage, self.setting.exposure * 2.0**told.grade_exposure_stops)
+        if drawn is not stage.picture:
+            self._mean(stage, drawn, self.setting.exposure * 2.0**told.grade_exposure_stops)
+        if clear:  # over the mean: each copy of several places in a pixel would cost as much as a picture
+            self._copy(stage, stage.picture)
+            painter.shade_glass(view, height, lambda: self._copy(stage, stage.picture))
         if told.aperture > 0:
             if stage.focus is None:
                 stage.focus = Focus(stage.width, stage.height)
@@ -398,22 +405,23 @@ class Pipeline:
         GL.glBindTexture(GL.GL_TEXTURE_2D, mirror.colour)
         GL.glGenerateMipmap(GL.GL_TEXTURE_2D)
 
-    def _copy(self, stage: Stage) -> None:
+    @staticmethod
+    def _copy(stage: Stage, drawn: gl.Target) -> None:
         """Copy the picture so far for mirrors and glass to read."""
         assert stage.behind is not None
-        stage.drawn.blit_to(stage.behind, depth=True)
-        stage.drawn.bind()
+        drawn.blit_to(stage.behind, depth=True)
+        drawn.bind()
 
-    def _mean(self, stage: Stage, exposure: float) -> None:
+    def _mean(self, stage: Stage, drawn: gl.Target, exposure: float) -> None:
         """Let `picture` be the mean of what was drawn at several places in each of its pixels, at the depth of one of them."""
-        stage.drawn.blit_to(stage.picture, depth=True)
+        drawn.blit_to(stage.picture, depth=True)
         if self._of_places is None:
             self._of_places = gl.Program("screen.vert", "mean.frag", PLACES=PLACES)
         stage.picture.bind()
         GL.glDisable(GL.GL_DEPTH_TEST)
         GL.glDisable(GL.GL_BLEND)
         program = self._of_places.use().set(depth=0.0, exposure=exposure)
-        program.texture("scene", 0, stage.drawn.colour, GL.GL_TEXTURE_2D_MULTISAMPLE)
+        program.texture("scene", 0, drawn.colour, GL.GL_TEXTURE_2D_MULTISAMPLE)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
         GL.glEnable(GL.GL_DEPTH_TEST)
 
