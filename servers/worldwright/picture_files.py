@@ -38,6 +38,8 @@ def write(result: Any, folder: Path | None, style: str, as_png: bool, aside: Cal
             place.mkdir(parents=True, exist_ok=True)
             write_atomic(path, picture.data)
         click.echo(str(path), err=style != "text")
+    if style == "text" and not as_png and any(picture.format == "jpeg" for picture in result.pictures):
+        click.echo("(for a viewer without JPEG: the same with --png)")
 
 
 def beside(name: str, arguments: dict[str, Any]) -> Path | None:

@@ -77,3 +77,12 @@ PIECES = re.compile(r"[A-Za-z]{1,7}|\d{1,3}|[^\w\s]+|_|\n")
 def test_what_a_role_writes_for_a_common_world_is_at_most_2500_tokens(world):
     pieces = len(PIECES.findall(made(REPO / "examples" / world / "plan.md")))
     assert pieces <= 2500, f"{pieces}: what the resolver or `plan complete` writes is no text of a role"
+
+
+@pytest.mark.parametrize(
+    "world", [REPO / "examples/spring-toy-launches/plan.md", REPO / "skills/media/references/two-paints/plan.md"]
+)
+def test_a_film_is_as_large_as_films_are_and_not_as_small_as_an_example_s(world):
+    assert "\nsize: [" in world.read_text(encoding="utf-8")
+    recorded = parse_plan(made(world)).plan.recording_mode
+    assert (recorded.size, recorded.fps) == ((1280, 720), 24)

@@ -15,6 +15,7 @@ from .plan_yaml import Node
 
 WRITTEN = ("position", "orientation", "provenance")
 """Keys of a placement row that the resolver writes."""
+OF_ITS_FILM = ("size", "fps")
 DEFAULTS = {"seed": 0, "integrator": "implicitfast"}
 """What a plan says when it says nothing."""
 ASKED = {
@@ -109,6 +110,8 @@ def _cuts(document: PlanDocument, gone: set[str]) -> Iterator[tuple[int, int, st
     yield from _without_keys(
         text, parameters, lambda name: name in DEFAULTS and parameters[name].scalar == DEFAULTS[name]
     )
+    if shown := document.nodes.get("recording_mode"):  # an example is small so that a repository stays so
+        yield from _without_keys(text, shown, lambda name: name in OF_ITS_FILM)
     if (topology := document.nodes.get("topology")) is None:
         return
     yield from _without_keys(text, topology, lambda name: name in ("settled", "image_observation"))
