@@ -1,6 +1,5 @@
 """Draw an asset's thumbnail with the runtime's own renderer (`python -m catalog.make --thumbnails`)."""
 
-import io
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,8 +8,8 @@ if TYPE_CHECKING:
     import numpy as np
 
 SIZE = 256
-COLOURS = 128
-"""So many are seen to be enough, at less than half the bytes."""
+STEP = 4
+"""Colours so far apart, of 255, are seen to be enough, at less than half the bytes."""
 SUPERSAMPLE = 2
 
 
@@ -40,16 +39,16 @@ def draw(key: str, catalog: Path) -> bytes:
     square = picture[:, left : left + picture.shape[0]] if not _wide(key) else picture
     shape = (SIZE, SIZE) if not _wide(key) else (SIZE * 16 // 9, SIZE)
     small = cv2.resize(square, shape, interpolation=cv2.INTER_AREA)
-    return few_colours(small)
+    return coarse(small)
 
 
-def few_colours(picture: "np.ndarray") -> bytes:
-    """PNG of a picture, uint8 (H, W, 3), RGB, in `COLOURS` of its own colours."""
-    from PIL import Image
+def coarse(picture: "np.ndarray") -> bytes:
+    """PNG of a picture, uint8 (H, W, 3), RGB, in colours `STEP` apart."""
+    import cv2
+    import numpy as np
 
-    made = io.BytesIO()
-    Image.fromarray(picture).quantize(COLOURS, method=Image.Quantize.MEDIANCUT).save(made, "PNG", optimize=True)
-    return made.getvalue()
+    steps = np.minimum((picture.astype(int) + STEP // 2) // STEP * STEP, 255).astype(np.uint8)
+    return cv2.imencode(".png", steps[..., ::-1], (cv2.IMWRITE_PNG_COMPRESSION, 9))[1].tobytes()
 
 
 def _wide(key: str) -> bool:

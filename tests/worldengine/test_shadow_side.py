@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from worldengine.film.renderers.preview import pipeline, shadows
+from worldengine.film.renderers.preview import shadows, stages
 from worldengine.film.renderers.preview.eye import View
 
 FRONT = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]])  # right is x, up is z, it looks along y
@@ -17,7 +17,7 @@ FRONT = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]])  # right is x, up is 
     ],
 )
 def test_a_shadow_map_is_as_fine_as_its_picture_can_show(quality, sides):
-    assert {pixels: pipeline.shadow_side(pixels, pipeline.QUALITIES[quality]) for pixels in sides} == sides
+    assert {pixels: stages.shadow_side(pixels, stages.QUALITIES[quality]) for pixels in sides} == sides
 
 
 def test_hills_on_the_horizon_do_not_coarsen_the_shadows_of_what_is_in_focus():
