@@ -60,6 +60,7 @@ def run(
     file_mb: int = 64,
     sculpts: "Given | None" = None,
     home: Callable[[Path], object] | None = None,
+    left: Callable[[Path], object] | None = None,
     cancelled: Callable[[], bool] = lambda: False,
     kept: Path | None = None,
     advances: bool = False,
@@ -77,6 +78,7 @@ def run(
         file_mb: size of one file, MiB.
         sculpts: shapes that were made earlier by the same sources, and the place for those that it makes.
         home: lays something into its throw-away home, whose folder it is given, before it starts.
+        left: takes something out of it after it has ended well.
         cancelled: asked several times a second; the run is ended when it says so.
         kept: the folder that it may write, which stays, for what is too large to be handed over; a throw-away one without it.
         advances: it tells in `progress.json` how much is done (`worldkit.reporting.Progress`); then `wall_s` begins anew whenever
@@ -120,6 +122,8 @@ def run(
         names = [name for word in wanted for name in (_matching(out, word) if "*" in word else [word])]
         files = {file: data for file in names if (data := plain.read(out / file, file_mb * MB)) is not None}
         sculpted = sculpts.keep(scratch) if sculpts else ()
+        if left is not None and (status, code) == ("ended", 0):
+            left(scratch)
     if status == CALL_OVER:
         raise call_time.over()
     return Confined(status, code, files, tail, round(wall, 3), name, sculpted)

@@ -57,6 +57,8 @@ class Crew:
         self.printed = 0
         self.members: list[Member] = []
         self._sculpts: list[tuple[Given, Path]] = []
+        self._drew: Path | None = None
+        """The home of an engine that draws."""
         self._log = job.log.open("wb")
         self._lock = threading.Lock()
         self._guard: Guard | None = None
@@ -76,7 +78,8 @@ class Crew:
         for folder in (out, scratch):
             folder.mkdir(parents=True, exist_ok=True)
         if name == "engine" and self.spec.stage not in UNDRAWN:
-            compiled_shaders.lay(scratch)
+            compiled_shaders.lay(scratch, Path(self.spec.run))
+            self._drew = scratch
         confinement = Confinement(
             out=out,
             reads=(*reads, *(path for path in (sculpts.places if sculpts else ()) if path.is_dir())),
@@ -148,7 +151,9 @@ class Crew:
         for member in self.members:
             member.process.wait()
             member.reader.join(timeout=5)
-        self.members = []
+        if self._drew is not None and all(member.process.returncode == 0 for member in self.members):
+            compiled_shaders.keep(self._drew, Path(self.spec.run))
+        self.members, self._drew = [], None
         for sculpts, scratch in self._sculpts:
             sculpts.keep(scratch)
         self._sculpts = []

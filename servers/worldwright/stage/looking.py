@@ -117,7 +117,7 @@ def storyboard(run: Run, key: EvidenceKey) -> Illustrated:
     """
     physics = recorded(run, key)
     words = ["storyboard", *given_words(physics), *storyboards.arguments(run, key)]
-    found = engine(words, (physics,), ("*.jpg",))
+    found = engine(words, (physics,), ("*.jpg",), run.folder)
     said = found["result.json"]
     glances = [
         _glance(camera, at, word, read)

@@ -236,7 +236,7 @@ def draw_frame(
         words = ["frame", *given_words(physics), *(("--size", f"{size[0]}x{size[1]}") if sized else ())]
         words += [word for at in moments for word in ("--at", str(float(at)))]
         words += ["--film", str(told[0]), *more] if told else through
-        return engine(words, (physics, *told), wanted, **limits)
+        return engine(words, (physics, *told), wanted, run.folder, **limits)
 
 
 def recorded(run: Run, key: EvidenceKey) -> Path:

@@ -26,6 +26,7 @@ def run_process(
     memory_mb: int = MEMORY_MB,
     sculpts: Given | None = None,
     home: Callable[[Path], object] | None = None,
+    left: Callable[[Path], object] | None = None,
     again: str = AGAIN,
     less: str = LESS,
     advances: bool = False,
@@ -40,6 +41,7 @@ def run_process(
         memory_mb: resident memory, MiB.
         sculpts: shapes that were made earlier, and the place for those that it makes.
         home: lays something into its throw-away home.
+        left: takes something out of it after it has ended well.
         again: the command that shows the failure once more.
         less: what to do when it takes too much.
         advances: `wall_s` begins anew whenever it has advanced; see `confined.run`.
@@ -57,6 +59,7 @@ def run_process(
             memory_mb=memory_mb,
             file_mb=512,
             home=home,
+            left=left,
             sculpts=sculpts,
             advances=advances,
         )
@@ -85,7 +88,15 @@ def run_process(
     return {**ended.files, RESULT: said[RESULT]}
 
 
-def engine(words: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], **limits: Any) -> dict[str, Any]:
-    """`run_process` for the engine, which draws with the shaders that are compiled already; `{out}` is told to it here."""
+def engine(
+    words: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], run: Path | None = None, **limits: Any
+) -> dict[str, Any]:
+    """`run_process` for the engine, which draws with the shaders that are compiled already, those of a `run`, too; `{out}` is told to it here."""
     call = [sys.executable, "-s", "-P", "-m", "worldengine", *words, "--out", "{out}"]
-    return run_process(call, reads, wanted, home=compiled_shaders.lay, **limits)
+    homes: dict[str, Any] = {"home": compiled_shaders.lay}
+    if run is not None:
+        homes = {
+            "home": lambda home: compiled_shaders.lay(home, run),
+            "left": lambda home: compiled_shaders.keep(home, run),
+        }
+    return run_process(call, reads, wanted, **homes, **limits)

@@ -114,3 +114,59 @@ def test_a_damaged_file_is_made_anew_by_the_next_job_and_fails_none(tmp_path, ca
     kept.write_bytes(damaged)
     compiled_shaders.lay(tmp_path / "second")
     assert list(laid(tmp_path / "third")) == ["mesa_shader_cache/one"] and len(cache) == 2
+
+
+def left(home: Path, name: str = "mesa_shader_cache/of/mine", data: bytes = b"own") -> Path:
+    """A home in which an engine compiled something."""
+    path = home / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(data)
+    return home
+
+
+def given(home: Path, run: Path) -> set[str]:
+    compiled_shaders.lay(home, run)
+    return {path.relative_to(home).as_posix() for path in home.rglob("*") if path.is_file()}
+
+
+def test_what_a_run_has_compiled_its_next_pictures_find_and_no_other_s(tmp_path, cache):
+    compiled_shaders.lay(tmp_path / "first", tmp_path / "run")
+    compiled_shaders.keep(left(tmp_path / "first"), tmp_path / "run")
+    assert given(tmp_path / "second", tmp_path / "run") == {"mesa_shader_cache/one", "mesa_shader_cache/of/mine"}
+    assert given(tmp_path / "third", tmp_path / "other") == {"mesa_shader_cache/one"}
+    assert list(laid(tmp_path / "proof")) == ["mesa_shader_cache/one"], "what is proved is drawn without it"
+
+
+def test_of_a_home_only_plain_files_are_kept(tmp_path, cache):
+    secret = tmp_path / "secret"
+    secret.write_text("of the host")
+    home = left(tmp_path / "home")
+    compiled_shaders.lay(home)
+    (home / "mesa_shader_cache/link").symlink_to(secret)
+    (home / "mesa_shader_cache/twin").hardlink_to(secret)
+    (home / "mesa_shader_cache/folder").symlink_to(tmp_path)
+    left(home, "mesa_shader_cache/odd name")
+    left(home, "elsewhere/file")
+    compiled_shaders.keep(home, tmp_path / "run")
+    assert given(tmp_path / "next", tmp_path / "run") == {"mesa_shader_cache/one", "mesa_shader_cache/of/mine"}
+
+
+def test_too_much_is_not_kept_and_few_runs_are(tmp_path, cache, monkeypatch):
+    monkeypatch.setattr(compiled_shaders, "MOST_BYTES", 10)
+    monkeypatch.setattr(compiled_shaders, "MOST_RUNS", 2)
+    compiled_shaders.lay(tmp_path / "home")
+    compiled_shaders.keep(left(tmp_path / "large", data=b"x" * 11), tmp_path / "run")
+    assert not (tmp_path / "cache/shaders-of-runs").exists()
+    for number in range(4):
+        compiled_shaders.keep(left(tmp_path / "small"), tmp_path / f"run-{number}")
+    assert len(list((tmp_path / "cache/shaders-of-runs").iterdir())) == 2
+
+
+def test_what_is_damaged_of_a_run_is_made_anew(tmp_path, cache):
+    compiled_shaders.lay(tmp_path / "home")
+    compiled_shaders.keep(left(tmp_path / "one"), tmp_path / "run")
+    (kept,) = (tmp_path / "cache/shaders-of-runs").iterdir()
+    kept.write_bytes(b"no archive")
+    assert given(tmp_path / "next", tmp_path / "run") == {"mesa_shader_cache/one"} and not kept.exists()
+    compiled_shaders.keep(left(tmp_path / "again"), tmp_path / "run")
+    assert kept.exists()
