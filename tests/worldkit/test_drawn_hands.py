@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from worldkit.errors import ProgramError
-from worldkit.filming import Film, Recorded, still
+from worldkit.filming import Film, Recorded, drawn_hands, still
+from worldkit.sculpt.hands import hand
 
 WAY = np.column_stack([np.linspace(0, 0.3, 100), np.zeros(100), np.linspace(0.5, 0.2, 100)])
 
@@ -84,3 +85,27 @@ def test_a_hand_on_no_body_is_refused():
     film = Film(Recorded.rehearsal({"kettle": WAY}, duration=3.0))
     with pytest.raises(ProgramError, match="kettle"):
         film.hand("ketle", pose="fist")
+
+
+@pytest.mark.parametrize("arm", [(-0.6, -0.7, 0.5), (0.6, 0.3, 0.4), (0.0, -0.8, 0.3), (1.0, 0.0, 0.0)])
+@pytest.mark.parametrize("axis", [(0, -0.342, 0.94), (0.5, 0.0, 0.8), (0, 0, 1)])
+def test_a_pen_is_held_by_a_wrist_that_is_nearly_straight(arm, axis):
+    """A palm that looked down, as for a cup, turned the hand on its back."""
+    closed = hand("hold_rod", 0.01)
+    end, towards = (np.asarray(v, dtype=float) / np.linalg.norm(v) for v in (axis, arm))
+    one = drawn_hands._easiest(closed, end, towards)
+    assert drawn_hands._forearm(closed, *one) @ towards > 0.6
+    turned = drawn_hands._turned(closed, *one)
+    assert np.allclose(turned.T @ turned, np.eye(3), atol=1e-9) and np.linalg.det(turned) > 0
+    assert np.allclose(turned @ closed.axis, end, atol=1e-9), "its tail is the upper end"
+
+
+def test_a_pen_is_held_the_same_whichever_end_is_named():
+    def told(way):
+        film = Film(Recorded.rehearsal({"pen": np.zeros((9, 3))}, duration=1.0))
+        film.hand("pen", rod=0.01, axis=way, arm=(0.6, 0.3, 0.4))
+        film.shot(still((1, 0, 0), (0, 0, 0)), until=1.0)
+        return film.description()[1]
+
+    both = told((0, -0.342, 0.94)), told((0, 0.342, -0.94))
+    assert all(np.array_equal(both[0][key], both[1][key]) for key in both[0])

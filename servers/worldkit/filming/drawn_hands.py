@@ -23,6 +23,8 @@ CLOSES_S, COMES_S = 0.45, 1.1
 """How long fingers take to close, and before that the arm to come, in the time of the recording."""
 BACK_M, REACH_M = 0.07, 1.0
 """How far an open hand draws back from what it held, and how far the arm then goes, with a hand of an adult."""
+LEVEL = 0.3
+"""A rod whose way has a smaller share of up or down lies."""
 FLEXION, DEVIATION = (-60.0, 65.0), (-28.0, 20.0)
 """Degrees that a wrist bends: from towards the back to towards the palm, from towards the little finger to towards the thumb."""
 
@@ -40,7 +42,7 @@ class DrawnHands(Limbs):
         rod: float = 0.0,
         pose: str = "",
         axis: Vec3 = (1.0, 0.0, 0.0),
-        palm: Vec3 = (0.0, 0.0, -1.0),
+        palm: Vec3 | None = None,
         arm: Vec3 | None = None,
         side: str = "right",
         takes: float | None = None,
@@ -54,8 +56,9 @@ class DrawnHands(Limbs):
 
         It closes around a bar of the diameter `grip`, m (a handle, a neck: 6 to 80 mm), holds what is `pinch` thick between thumb and
         index, or a `rod` as one holds a spoon or pen; or has the pose `flat`, `fist`, `point`, `open` or `relaxed`. Its middle is at
-        `at`, m, the bar runs along `axis`, the palm looks to `palm`, and the arm comes from `arm`: all in the body's frame. Without
-        `arm`, `axis` points to the thumb; with it the hand is turned so that the forearm lies that way, as far as a wrist bends.
+        `at`, m, the bar runs along `axis`, the palm looks to `palm` (down), and the arm comes from `arm`: all in the body's frame. Without
+        `arm`, `axis` points to the thumb; with it the hand is turned so that the forearm lies that way, as far as a wrist bends. A rod
+        with an `arm` needs no palm: it is held so that the wrist bends least.
 
         Without `takes` it holds from the start, else it reaches in and has closed at that time of the recording, s; from `leaves` on it
         opens and withdraws. `sleeve` and `skin` are colours; an empty sleeve leaves the arm bare. `length` is from wrist to fingertip, m.
@@ -69,7 +72,7 @@ class DrawnHands(Limbs):
         kind = pose or (held[0] if held else "relaxed")
         if len(held) > 1 or (held and pose):
             raise ProgramError("a hand has one pose: grip=, pinch=, rod= or pose=", "film.py", "give one of them")
-        thumb, out, towards = _directions(axis, palm, arm)
+        thumb, out, towards = _directions(axis, palm or (0, 0, -1), arm)
         handed = -1.0 if side == "left" else 1.0
         try:
             closed = hand(
@@ -85,12 +88,16 @@ class DrawnHands(Limbs):
             raise ProgramError(
                 str(cause), "film.py", 'film.hand("kettle", at=(0, 0, 0.2), grip=0.025, axis=(1, 0, 0))'
             ) from None
-        if (
+        if palm is None and towards is not None and rod:
+            # A pen's end points up out of the hand; of one that lies flat either may.
+            ends = (thumb, -thumb) if abs(thumb[2]) < LEVEL else (np.sign(thumb[2]) * thumb,)
+            found = (_easiest(closed, end, towards) for end in ends)
+            thumb, out = max(found, key=lambda one: float(_forearm(closed, *one) @ towards))
+        elif (
             towards is not None and handed * np.cross(thumb, out) @ towards > 0
         ):  # fingers point away from where the arm comes from
             thumb = -thumb
-        there = np.stack([handed * np.cross(thumb, out), thumb, out], axis=1)
-        turned = there @ np.stack([handed * np.cross(closed.axis, closed.into), closed.axis, closed.into])
+        turned = _turned(closed, thumb, out)
         if towards is not None:
             x, y, z = (-towards @ turned) * (1.0, handed, 1.0)
             bent = np.clip(np.degrees(np.arctan2(z, x)), *FLEXION)
@@ -153,6 +160,28 @@ class DrawnHands(Limbs):
             return places[:, None], shown[:, None].astype(float), turns[:, None]
 
         return at
+
+
+def _turned(closed: Hand, thumb: np.ndarray, out: np.ndarray) -> np.ndarray:
+    """How a hand is turned (3, 3) that holds a bar along `thumb`, with its back to `out`."""
+    handed = -1.0 if closed.left else 1.0
+    there = np.stack([handed * np.cross(thumb, out), thumb, out], axis=1)
+    found: np.ndarray = there @ np.stack([handed * np.cross(closed.axis, closed.into), closed.axis, closed.into])
+    return found
+
+
+def _forearm(closed: Hand, thumb: np.ndarray, out: np.ndarray) -> np.ndarray:
+    """Where the forearm of a hand comes from that is turned so, its wrist straight."""
+    return np.asarray(_turned(closed, thumb, out) @ (-1.0, 0.0, 0.0))
+
+
+def _easiest(closed: Hand, thumb: np.ndarray, towards: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Along a rod, and where the back of the hand looks when it bends its wrist least for an arm that comes from `towards`."""
+    side = np.cross(thumb, (0.0, 0.0, 1.0) if abs(thumb[2]) < 0.9 else (1.0, 0.0, 0.0))
+    side /= np.linalg.norm(side)
+    turns = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
+    ways = [np.cos(turn) * side + np.sin(turn) * np.cross(thumb, side) for turn in turns]
+    return thumb, max(ways, key=lambda out: float(_forearm(closed, thumb, out) @ towards))
 
 
 def _directions(axis: Vec3, palm: Vec3, arm: Vec3 | None) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
