@@ -90,9 +90,9 @@ class DrawnHands(Limbs):
             ) from None
         if palm is None and towards is not None and rod:
             # A pen's end points up out of the hand; of one that lies flat either may.
-            ends = (thumb, -thumb) if abs(thumb[2]) < LEVEL else (np.sign(thumb[2]) * thumb,)
-            found = (_easiest(closed, end, towards) for end in ends)
-            thumb, out = max(found, key=lambda one: float(_forearm(closed, *one) @ towards))
+            tails = (thumb, -thumb) if abs(thumb[2]) < LEVEL else (np.sign(thumb[2]) * thumb,)
+            held_so = (_easiest(closed, end, towards) for end in tails)
+            thumb, out = max(held_so, key=lambda one: float(_forearm(closed, *one) @ towards))
         elif (
             towards is not None and handed * np.cross(thumb, out) @ towards > 0
         ):  # fingers point away from where the arm comes from
