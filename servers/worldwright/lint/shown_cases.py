@@ -27,11 +27,10 @@ def text(case: object) -> str:
 
 def _beside(case: str, clean: list[str]) -> str:
     """A case; of a long one, where it differs from the clean case that is most like it."""
-    if len(case) <= LONG:
-        return case
-    found = min((list(_differing(other, case)) for other in clean), key=lambda lines: sum(map(len, lines)), default=[])
-    told = "\n".join([AS_A_CLEAN_ONE, *found])
-    return told if len(told) <= LONG else told[:LONG] + " …"
+    if len(case) > LONG and clean:
+        found = min((list(_differing(other, case)) for other in clean), key=lambda lines: sum(map(len, lines)))
+        case = "\n".join([AS_A_CLEAN_ONE, *found])
+    return case if len(case) <= LONG else case[:LONG] + " …"
 
 
 def _differing(one: str, other: str) -> Iterator[str]:

@@ -53,8 +53,10 @@ def keep(home: Path, run: Path) -> None:
     with contextlib.suppress(OSError, zipfile.BadZipFile):
         with zipfile.ZipFile(cache_folder() / f"shaders-{state}.zip") as archive:
             common = set(archive.namelist())
-        for top in shader_sampler.CACHES:
-            for folder, _, names in os.walk(home / top):  # which follows no links
+        for top in (home / name for name in shader_sampler.CACHES):
+            if top.is_symlink():  # the one link that a walk would follow
+                continue
+            for folder, _, names in os.walk(top):
                 for path in (Path(folder) / name for name in names):
                     name = path.relative_to(home).as_posix()
                     if name not in common and PLAIN_NAME.fullmatch(name) and (data := plain.read(path, MOST_BYTES)):

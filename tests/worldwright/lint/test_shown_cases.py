@@ -17,6 +17,7 @@ def test_of_a_long_case_it_is_shown_where_it_differs():
     (told,), good = shown_cases.shown([faulty], [clean])
     assert "+line_40 = 41" in told and "-line_40 = 40" in told and "line_60" not in told
     assert good == (), "a clean case that is long is left out"
+    assert shown_cases.shown([faulty], [])[0][0].startswith("line_0 = 0"), "with none to compare it with, its beginning"
 
 
 def test_few_cases_are_shown_and_it_is_said_how_many_more_there_are():

@@ -145,6 +145,8 @@ def test_of_a_home_only_plain_files_are_kept(tmp_path, cache):
     (home / "mesa_shader_cache/link").symlink_to(secret)
     (home / "mesa_shader_cache/twin").hardlink_to(secret)
     (home / "mesa_shader_cache/folder").symlink_to(tmp_path)
+    hosts = left(tmp_path / "host", "secret")
+    (home / "mesa_shader_cache_db").symlink_to(hosts)
     left(home, "mesa_shader_cache/odd name")
     left(home, "elsewhere/file")
     compiled_shaders.keep(home, tmp_path / "run")
