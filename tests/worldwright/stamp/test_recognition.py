@@ -163,6 +163,16 @@ def test_all_that_is_not_told_is_told_at_once(reviewed, copy):
     stamp.review(str(run), passed(loud, EVENT))
 
 
+def test_before_anybody_writes_a_verdict_the_status_tells_what_it_has_to_recognise(reviewed, copy):
+    run = copy(reviewed)
+    (review,) = run.glob("evidence/*/review.json")
+    review.unlink()
+    assert "`recognised`" not in stamp.status(str(run)).text(), "nobody named anything"
+    stamp.describe(str(run), seen())
+    asked = "`recognised` has a row for each of ball, event; `seen_as` is copied from: a red ball; of event: it drops to the ground"
+    assert asked in stamp.status(str(run)).text()
+
+
 def test_a_claim_of_rest_that_fails_sends_to_the_plan_first(tmp_path):
     state = State(Run(tmp_path))
     assert "plan.md claims" in next_repair.of_anomaly(state, "WS107")
