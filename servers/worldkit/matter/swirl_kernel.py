@@ -234,6 +234,18 @@ def covered(x, y, h, bed, spread, rounded, middle, deep, reach, samples, ways, s
 
 
 @kernel
+def within(row, column, rows, columns, rounded):
+    """The cell of a field that stands for one beyond its rim, or beyond the middle of a round one."""
+    if rounded:
+        if row < 0:
+            row, column = -1 - row, column + columns // 2
+        column %= columns
+    else:
+        row, column = max(row, 0), min(max(column, 0), columns - 1)
+    return min(row, rows - 1), column
+
+
+@kernel
 def sampled(field, rounded, i, j):
     """A field (I, J) of the cells at a place counted in rows and columns, between the middles of cells."""
     rows, columns = field.shape
@@ -243,14 +255,7 @@ def sampled(field, rounded, i, j):
     total = 0.0
     for di in range(2):
         for dj in range(2):
-            row, column = a + di, b + dj
-            if rounded:
-                if row < 0:
-                    row, column = -1 - row, column + columns // 2
-                column %= columns
-            else:
-                row, column = max(row, 0), min(max(column, 0), columns - 1)
-            row = min(row, rows - 1)
+            row, column = within(a + di, b + dj, rows, columns, rounded)
             total += (fi if di else 1.0 - fi) * (fj if dj else 1.0 - fj) * field[row, column]
     return total
 
@@ -322,14 +327,8 @@ def dyed(dye, fresh, x, y, ways, rounded, middle, deep, turn, wide, reach, own_d
                 total, low, high = 0.0, 1.0, 0.0
                 for di in range(4):
                     for dj in range(4):
-                        row, column = p + di - 1, s + dj - 1
-                        if rounded:
-                            if row < 0:
-                                row, column = -1 - row, column + columns // 2
-                            column %= columns
-                        else:
-                            row, column = max(row, 0), min(max(column, 0), columns - 1)
-                        value = dye[min(row, rows - 1), column, k]
+                        row, column = within(p + di - 1, s + dj - 1, rows, columns, rounded)
+                        value = dye[row, column, k]
                         total += wi[di] * wj[dj] * value
                         if 0 < di < 3 and 0 < dj < 3:
                             low, high = min(low, value), max(high, value)
