@@ -51,7 +51,7 @@ class Treatment:
     grade_glow: float | None = None
     grade_fade: float = 0.0
     grade_outlines: float = 0.0
-    """1: outlines are smooth, at twice the time."""
+    """1: outlines are smooth, at twice the time or more."""
     focus_m: float = 0.0
     """The distance that is sharp, m."""
     breeze: tuple[float, float, float] | None = None
