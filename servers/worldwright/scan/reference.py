@@ -51,7 +51,7 @@ Not checks of one recording: they repeat the physics (`worldwright scan scan RUN
 | WS321 | `effect_without_cause` | the effect comes although its declared cause was taken away: it was staged |
 | WS322 | `effect_unmoved` | the cause was weakened and the effect neither came later nor measured differently: it was timed |
 | WS323 | `timed_trigger` | what the plan declares as a consequence acts at the same moment whatever happens |
-| WS324 | `cause_untested` | a declared cause could not be tested: the effect has no expectation, or nothing of the cause can be removed |
+| WS324 | `cause_untested` | a declared cause could not be tested: the effect has no expectation, nothing of the cause can be removed, or without it a motor elsewhere never acts |
 
 `--robust` measures every claim again with friction a fifth higher and lower, masses and start a hundredth otherwise, and half
 the time step, and tells in how many of these worlds it holds. It is a remark and blocks nothing.

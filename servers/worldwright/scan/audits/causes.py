@@ -19,6 +19,7 @@ from ...model.recording.trajectory import Trajectory
 from ..anomalies.declared import mentioned
 from ..objectives import expecting
 from . import moment, triggers
+from .relayed import Relayed, relayed
 from .switches import TOGETHER, Switches
 from .trials import Trials, label_of
 
@@ -100,6 +101,7 @@ class Causes:
             why = self.trials.failed[gone]
             return CauseResult(**facts, outcome="unclear", message=f"{cause} could not be taken away: {why}")
         without = tuple(self._respond(gone, self.trials.made[gone], e) for e in effects)
+        silent = self._silent(cause, gone, facts["as_planned"])
         survivors = [e.name for e, r in zip(effects, without, strict=True) if r.status == "holds"]
         facts["without"] = without
         if len(survivors) == len(effects):
@@ -113,6 +115,14 @@ class Causes:
         facts["weakened"] = tuple(r for row in answers for r in row)
         moved, what = self._moves(facts["as_planned"], answers)
         vanishes = f"without {cause} the effect does not come"
+        if hollow := [one.text for one in silent if not one.in_plan]:
+            message = (
+                f"{vanishes}, but neither does {' nor '.join(hollow)}, ever act then: what that would do without {cause} was "
+                f"not tried. Let it act without waiting for {cause}, or say in its `trigger` what of {cause} sets it off"
+            )
+            return CauseResult(**facts, outcome="unclear", message=message)
+        if silent:
+            vanishes += f", for it sets off {' and '.join(one.text for one in silent)}, whose work without {cause} was not tried"
         if survivors:
             vanishes += f" (though {', '.join(survivors)} still holds)"
         stopped = [label for label in asked if label in self.trials.limited]
@@ -129,13 +139,23 @@ class Causes:
             return CauseResult(**facts, outcome="timed", message=message)
         return CauseResult(**facts, outcome="caused", message=f"{vanishes}; weakened, {what}")
 
+    def _silent(self, cause: str, gone: str, planned: tuple[Response, ...]) -> tuple[Relayed, ...]:
+        """The drives that the repetition without the cause leaves silent."""
+        until = max((r.event_s for r in planned if r.event_s is not None), default=float(self.trajectory.t[-1]))
+        found = relayed(self.trajectory, self.trials.made[gone], self.acting, self._own(cause), until)
+        return () if self.singly else tuple(found)
+
+    @staticmethod
+    def _own(cause: str) -> set[str]:
+        return {part.strip().rpartition(":")[2].partition("/")[0] for part in cause.split(TOGETHER)}
+
     def _effects(self, index: int, cause: str) -> tuple[ExpectationResult, ...]:
         """The expectations that measure the effect: those that `effect` names, else those that do not mention the cause."""
         objective, results = self.plan.objectives[index], self.expected.objectives[index].expectations
         named = tuple(e for e in results if e.name in objective.effect.replace(",", " ").split())
         if named:
             return named
-        own = {part.rpartition(":")[2].partition("/")[0] for part in cause.split(TOGETHER)}
+        own = self._own(cause)
         others = tuple(e for e in results if not own & mentioned(e.arguments))
         return others or results
 
