@@ -18,6 +18,7 @@ from . import bulbs, rounded, rubbed
 from .absorbed import lets_through
 from .coatings import CLEAR, CORNERS, Coatings
 from .ground_rings import rings
+from .inside_out import outward
 from .leaning import facing, upright
 from .relief import displaced
 from .rounded import Mesh
@@ -175,7 +176,8 @@ def shape_of(model: mujoco.MjModel, batch: Any, numbers: np.ndarray, geom: int, 
         made = unit_shapes.mesh if kind == "mesh" else unit_shapes.height_field
         rows, faces = made(model, batch.shape[1])
         v = np.column_stack([rows[:, 7], 1.0 - rows[:, 8]])
-        mesh = upright(Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v))
+        mesh = Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v)
+        mesh = upright(outward(mesh) if kind == "mesh" else mesh)
     if finish.texture < 0 and entry.paint is None:
         return mesh
     per_metre, other, mode, seed = (float(x) for x in numbers[24:28])

@@ -32,9 +32,9 @@ class Sides(NamedTuple):
 
 def two_sided(mesh: Mesh) -> Sides:
     """The mesh, of which all that is open or wound both ways has a front and a back; the same if all of it is closed."""
-    welded, faces = _welded(mesh), mesh.faces
-    both = _wound_both_ways(welded)
-    open_ones = _open(welded, both) if len(faces) <= MANY else np.zeros(len(faces), bool)
+    places, faces = welded(mesh), mesh.faces
+    both = _wound_both_ways(places)
+    open_ones = _open(places, both) if len(faces) <= MANY else np.zeros(len(faces), bool)
     if not both.any() and not open_ones.any():
         return Sides(mesh, np.arange(len(mesh.points)))
     sheet = np.concatenate([faces[both | open_ones], faces[open_ones][:, ::-1]])
@@ -56,7 +56,7 @@ def two_sided(mesh: Mesh) -> Sides:
     return Sides(found, origin)
 
 
-def _welded(mesh: Mesh) -> np.ndarray:
+def welded(mesh: Mesh) -> np.ndarray:
     """Its triangles (F, 3) by places: corners that lie at the same one are one."""
     step = max(WELD * float(np.ptp(mesh.points, axis=0).max(initial=0.0)), 1e-12)
     return _numbered(np.round(mesh.points / step))[mesh.faces]
