@@ -12,58 +12,20 @@ import mujoco
 import numpy as np
 import pytest
 
-from small_worlds import ball, empty, floor, lay_film, record
-from worldengine.film import behind_walls, chosen_frames, described, motion_facts, passes, streaks
+from filmed_balls import SIZE, Made
+from small_worlds import empty, floor
+from worldengine.film import behind_walls, chosen_frames, described, passes, streaks
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening
 from worldengine.film.dressed import DressedReplay, dress
 from worldengine.film.lettering import letter, pace
 from worldengine.film.treatment import Treatments
 from worldkit import portable, sculpt, turning
-from worldkit.filming import Film, Recorded, Surface, follow, planned, still, wide
+from worldkit.filming import Surface, follow, planned, still, wide
 from worldkit.filming.viewpoints import axes
 
-SIZE = (96, 54)
 CUBE = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
 FACES = np.array([(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)])  # fmt: skip
-
-
-def world():
-    """Two balls over a floor; the first is red and changes its colour while it falls."""
-    spec = empty()
-    floor(spec)
-    ball(spec, "first", (0, 0, 0.6), rgba=(0.8, 0.1, 0.1, 1))
-    ball(spec, "second", (0.5, 0, 0.4), rgba=(0.1, 0.1, 0.8, 1))
-    spec.worldbody.add_camera(name="side", pos=(0, -3, 0.5), xyaxes=(1, 0, 0, 0, 0, 1))
-    return spec
-
-
-class Made:
-    """A recorded world, and films of it."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        spec = world()
-
-        def glow(model, data):
-            model.geom_rgba[model.geom("second").id, 0] = min(1.0, data.time)
-
-        self.recording = record(spec, folder / "trajectory", 500, glow)
-        portable.write(world(), folder / "world.mjz")
-        self.plain = portable.read(folder / "world.mjz")
-        facts = {"fps": 24, "size": list(SIZE), "movers": ["first", "second"]}
-        motion_facts.write(self.recording, folder / "motion.npz", facts)
-        with np.load(folder / "motion.npz") as arrays:
-            self.seen = Recorded(dict(arrays))
-
-    def film(self, tell, change=None):
-        film = Film(self.seen)
-        tell(film)
-        lay_film(self.folder, film, change)
-        return described.read(self.folder, self.recording)
-
-    def screening(self, tell):
-        return Screening(self.folder / "world.mjz", self.plain, self.recording, self.film(tell), SIZE, 24)
 
 
 @pytest.fixture(scope="module")

@@ -37,7 +37,10 @@ VESSEL = together(BALL, turned(moved(BALL, 0.0, 0.8)))
         (turned(BALL), BALL),
         (turned(VESSEL), VESSEL),
         (together(BALL, turned(moved(BALL, 1.0))), together(BALL, moved(BALL, 1.0))),
-        (together(turned(BALL), turned(moved(BALL, 1.0)), moved(BALL, 2.0)), together(BALL, moved(BALL, 1.0), moved(BALL, 2.0))),
+        (
+            together(turned(BALL), turned(moved(BALL, 1.0)), moved(BALL, 2.0)),
+            together(BALL, moved(BALL, 1.0), moved(BALL, 2.0)),
+        ),
     ],
     ids=["a ball", "a vessel", "one of two", "two of three"],
 )

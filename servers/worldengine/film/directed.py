@@ -8,13 +8,14 @@ from worldkit import cameras, turning
 from worldkit.filming.viewpoints import axes
 
 from ..recording.replay import Replay
-from . import behind_drawn, camera_roll, puffs, smear, stand_ins, streaks, time_map
+from . import behind_drawn, camera_roll, puffs, renderers, smear, stand_ins, streaks, time_map
 from .described import Described
 from .drawn_frames import Frames
 from .dressed import CAMERA, DressedReplay, dress, surfaces
 from .lettering import letter
 from .renderers import Before
 from .renderers.preview.eye import of_camera
+from .standing_outlines import LEAST_FRAMES, StandingOutlines
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -89,6 +90,7 @@ class Screening:
         ]
         self._blown: tuple[float, float, float] | None = None
         self._still: dict[int, tuple[int, ...]] = {}
+        self._fine, self._outlines = False, StandingOutlines(self._plate)
         self.alone = False
         """Few pictures are wanted: nothing is drawn that others could be drawn over."""
         self.tick: Callable[[], object] = lambda: None
@@ -116,11 +118,31 @@ class Screening:
 
     def wordless(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
         """One frame without its words: uint8 (height, width, 3)."""
+        plates = self._plates(frame, quality)
+        self._outlines.ready(plates)
         moments = self._moments(quality, frame)
         smeared = self._reckons and self._travel_px(frame) >= streaks.LEAST_PX
         before = [Before(number, self._parts(number, moments)) for number in self.standing(frame, quality)]
         picture = self.frames.over(before, self._parts(frame, moments), self._camera, quality)
+        picture = self._outlines.smoothed(picture) if plates else picture
         return self._smeared(frame, picture) if smeared else picture
+
+    def _plate(self, frame: int, fine: bool) -> "np.ndarray":
+        self._fine = fine
+        try:
+            return self.frames.image(self._moment(float(frame)), self._camera)
+        finally:
+            self._fine = False
+
+    def _plates(self, frame: int, quality: "Quality") -> tuple[int, ...]:
+        """The frames by which what stands in a frame gets smooth outlines: of its shot, developed alike, where the camera stands."""
+        shot = self.film.shots[self.film.shot(frame)]
+        if self.alone or quality != "video" or self.frames.renderer != renderers.USUAL or shot["frames"] < LEAST_FRAMES:
+            return ()
+        treatment, fps = self.film.treatments.at(frame / self.fps), self.fps
+        if treatment.grade_outlines > 0.5:
+            return ()
+        return tuple(n for n in self._held(frame) if self.film.treatments.at(n / fps) == treatment)
 
     @property
     def _reckons(self) -> bool:
@@ -231,8 +253,10 @@ class Screening:
     def standing(self, frame: int, quality: "Quality") -> tuple[int, ...]:
         """The frames that stand in for what does not change in a shot, if its camera and light do not: its last, where most
         has come to rest, and its first, for what is about to move; a draft needs none."""
-        if self.alone or isinstance(quality, str) or quality < 1:
-            return ()
+        return () if self.alone or isinstance(quality, str) or quality < 1 else self._held(frame)
+
+    def _held(self, frame: int) -> tuple[int, ...]:
+        """The last and the first frame of the shot of a frame, if its camera and light stand still; else none."""
         shot = self.film.shot(frame)
         if shot not in self._still:
             film, first, count = self.film, self.film.shots[shot]["first"], self.film.shots[shot]["frames"]
@@ -312,7 +336,7 @@ class Screening:
         if film.breeze is not None and self.sways:  # else what stands would be drawn anew for nothing
             self._blown = (*film.breeze, self._seconds(at))
             treatment = replace(treatment, breeze=self._blown)
-        self.frames.treat(treatment)
+        self.frames.treat(replace(treatment, grade_outlines=1.0) if self._fine else treatment)
         return data
 
     def _look(self, data: "mujoco.MjData", shot: dict[str, Any], row: int, told: "Callable[[str], Any]") -> None:

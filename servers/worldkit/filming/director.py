@@ -134,11 +134,21 @@ class Film(Labelled, DrawnHands):
             raise ProgramError("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples", "film.py", "shutter(0.5)")
         self._shutter, self._samples = float(share), int(samples)
 
-    def set(self, name: str, *, facing_deg: float = -57.0, seed: int = 1, colour: str = "", hour: str = "") -> None:
+    def set(
+        self,
+        name: str,
+        *,
+        facing_deg: float = -57.0,
+        seed: int = 1,
+        colour: str = "",
+        hour: str = "",
+        bare: bool = False,
+    ) -> None:
         """Surroundings in one line: `film.set("meadow")`, drawn only, with light, sky and air that suit them.
 
         `facing_deg` is the side from which the camera looks (an azimuth; `wide()` looks from -57) and which is kept free;
-        another `seed` makes another of the same kind, and `colour` (`#rrggbb`) is that of the wall of a `still_life`. `hour` is
+        another `seed` makes another of the same kind, and `colour` (`#rrggbb`) is that of the wall of a `still_life`, in which a
+        vase of dried flowers stands at the side unless it is `bare`. `hour` is
         `noon`, `golden_hour`, `overcast`, `misty_morning`, `dusk` or `night`, when street, park and room have their lamps lit;
         without it a set has its own, or that of the sky which the plan states. Light, sky and ground that the plan states
         stay as they are, and no grass grows on snow or sand; what is said afterwards (light, mood, ground) changes it.
@@ -149,7 +159,8 @@ class Film(Labelled, DrawnHands):
         stated = str(self.recorded.light.get("sky", ""))
         self._names.building = name
         try:
-            sets.build(self, name, facing_deg, seed, colour, hour or (stated if stated in sets.hours.HOURS else ""))
+            hour = hour or (stated if stated in sets.hours.HOURS else "")
+            sets.build(self, name, facing_deg, seed, colour, hour, bare=bare)
         finally:
             self._names.building = ""
         self.as_planned()

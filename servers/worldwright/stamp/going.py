@@ -17,7 +17,7 @@ from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
-from . import at_work, audited, gates, next_repair, picture_claims, proof_ahead, rough_film, scope
+from . import at_work, audited, gates, next_repair, picture_claims, proof_ahead, rough_film, scope, traced_ahead
 from .gone import Gone, Wrong
 from .halts import RunningError, TurnError, WrongError
 from .smallest_seen import smallest_seen
@@ -75,7 +75,7 @@ class Going:
         self.held: dict[StepName, str] = {}
         self.wrong: list[Wrong] = []
         self.under_way: list[str] = []
-        self.storyboard = self.robust = self.proof = self.moving = ""
+        self.storyboard = self.robust = self.proof = self.moving = self.traced = ""
         self.of_layout: tuple[Finding, ...] = ()
         self.ended: dict[PassName, tuple[str, ...]] = {}
 
@@ -108,8 +108,9 @@ class Going:
             self.proof = ahead
         if {*audited.BEFORE_ROBUST} <= self.held.keys():
             self.robust = audited.robust_beside(self.run, proving=bool(self.proof))
-            if self.robust:
-                self.say("robust", "done", self.robust)
+            self.traced = traced_ahead.begin(self.run) if self.attended and not self.wrong else ""
+            for beside, said in filter(all, (("robust", self.robust), ("traced", self.traced))):
+                self.say(beside, "done", said)
         return self.told(turn)
 
     def told(self, turn: str) -> Gone:
@@ -128,7 +129,8 @@ class Going:
                 turn = next_repair.film_first(State(self.run), self.moving)
         return Gone(
             run=self.run.name, state=state, held=self.held, wrong=tuple(self.wrong), under_way=tuple(self.under_way),
-            storyboard=self.storyboard, moving=self.moving, proof=self.proof, robust=self.robust, next_move=turn,
+            storyboard=self.storyboard, moving=self.moving, proof=self.proof, robust=self.robust, traced=self.traced,
+            next_move=turn,
         )  # fmt: skip
 
     def actions(self) -> Iterator[tuple[StepName, Callable[[], str]]]:

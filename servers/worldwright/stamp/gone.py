@@ -34,6 +34,8 @@ class Gone(Frozen):
     """What of acceptance is made beside: the repetitions that causes ask for, and the proof run of a long physics."""
     robust: str = ""
     """In how many worlds a little otherwise the claims hold, or that it is being found out beside, which nothing waits for."""
+    traced: str = ""
+    """Where the film is traced beside, for show, which nothing waits for."""
     next_move: str = ""
 
     @property
@@ -51,6 +53,7 @@ class Gone(Frozen):
         lines += [f"  look: stage.frames, show: moving ({self.moving})"] if self.moving else []
         lines += [f"  · proof   {self.proof}"] if self.proof else []
         lines += [f"  · robust  {self.robust}"] if self.robust else []
+        lines += [f"  · traced  {self.traced}"] if self.traced else []
         return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
 
 

@@ -35,7 +35,11 @@ def presses_anyway(model: mujoco.MjModel, data: mujoco.MjData) -> None:
 
 def told(tmp_path: Path, control: object, cause: str = "cutter", **press: str) -> Audit:
     rows = (declare("control", "draw"), declare("control", "press", **press))
-    claim = {"claim": "the cut lets the pad sink", "cause": [cause], "expect": [{"moves": {"body": "pad", "min_m": 0.3}}]}
+    claim = {
+        "claim": "the cut lets the pad sink",
+        "cause": [cause],
+        "expect": [{"moves": {"body": "pad", "min_m": 0.3}}],
+    }
     return audit(World(bench, control, 1.0, ("cutter", "pad"), rows, (claim,)), tmp_path)
 
 
@@ -47,17 +51,26 @@ def test_a_press_that_waits_for_the_cutter_and_does_not_say_so_leaves_the_cut_un
     assert "WS324" in found.codes()
 
 
-@pytest.mark.parametrize("press", [{"trigger": "speed of cutter > 0.3 m/s"}, {"law": "once cutter is out of the way, 3 N"}])
+@pytest.mark.parametrize(
+    "press", [{"trigger": "speed of cutter > 0.3 m/s"}, {"law": "once cutter is out of the way, 3 N"}]
+)
 def test_where_the_plan_says_so_it_is_told(tmp_path: Path, press: dict[str, str]) -> None:
     (cause,) = told(tmp_path, presses_in_turn, **press).causes.causes
     assert cause.outcome == "caused"
-    assert f"it sets off press (in the plan: {[*press.values()][0]}), whose work without cutter was not tried" in cause.message
+    assert (
+        f"it sets off press (in the plan: {next(iter(press.values()))}), whose work without cutter was not tried"
+        in cause.message
+    )
 
 
-@pytest.mark.parametrize(("control", "cause"), [(presses_anyway, "cutter"), (presses_in_turn, "press"), (presses_in_turn, "pad")])
+@pytest.mark.parametrize(
+    ("control", "cause"), [(presses_anyway, "cutter"), (presses_in_turn, "press"), (presses_in_turn, "pad")]
+)
 def test_a_motor_that_acts_all_the_same_or_is_the_cause_itself_is_no_relay(
     tmp_path: Path, control: object, cause: str
 ) -> None:
     (result,) = told(tmp_path, control, cause).causes.causes
-    assert result.outcome == ("survives" if control is presses_anyway and cause == "cutter" else "caused"), result.message
+    assert result.outcome == ("survives" if control is presses_anyway and cause == "cutter" else "caused"), (
+        result.message
+    )
     assert "not tried" not in result.message

@@ -36,7 +36,7 @@ ROOMS = ("living_room", "workshop", "gym")
 """Sets with walls and furniture, which stand around the furniture of the world, too."""
 ON_TOPS = ("kitchen_counter", "laboratory", "still_life")
 """Sets on the top of a table, in a room."""
-NO_SETS = ("pieces", "land", "furniture", "hours", "town")
+NO_SETS = ("pieces", "land", "furniture", "dried_flowers", "hours", "town")
 """Modules of this folder that the sets are made with."""
 
 
@@ -70,6 +70,8 @@ class Place:
     """Of the wall, where the film names one."""
     hour: str = ""
     """The time of day, one of `hours.HOURS`; empty is the set's own."""
+    bare: bool = False
+    """Whether nothing stands about in it that is there for its looks alone."""
     standing: float = 0.0
     """The radius, m, with the things of the world that stand near what moves; a room leaves them their place."""
 
@@ -135,7 +137,9 @@ def _furniture(recorded: Recorded, middle: np.ndarray) -> list[float]:
     return [far for far in found if far < 2 * LAND_M]
 
 
-def build(film: "Dressing", name: str, facing_deg: float, seed: int, colour: str = "", hour: str = "") -> None:
+def build(
+    film: "Dressing", name: str, facing_deg: float, seed: int, colour: str = "", hour: str = "", *, bare: bool = False
+) -> None:
     """Draw a set around what is recorded, at an hour of `hours.HOURS` or, with none, at its own.
 
     Raises:
@@ -157,7 +161,7 @@ def build(film: "Dressing", name: str, facing_deg: float, seed: int, colour: str
     if colour and not hasattr(found, "COLOUR"):
         choice = ", ".join(known for known in there if hasattr(SETS.find(known), "COLOUR"))
         raise ProgramError(f"the set {name!r} has no wall whose colour is chosen", "film.py", f"use {choice}")
-    place = replace(place, colour=colour, hour=hour)
+    place = replace(place, colour=colour, hour=hour, bare=bare)
     found.build(film, replace(place, radius=place.standing) if name in ROOMS else place)
     if hour and name in (*ROOMS, *ON_TOPS):
         hours.indoors(film, place, 0.95 if name in ON_TOPS else 2.3)

@@ -1,4 +1,5 @@
-"""A still life: a painted wall close behind, a wooden top, low hard sun from the side through a window that is not seen."""
+"""A still life: a painted wall close behind, a wooden top, low hard sun from the side through a window that is not seen, and
+a vase with dried flowers on that side."""
 
 from typing import TYPE_CHECKING
 
@@ -6,14 +7,16 @@ import numpy as np
 
 from ...errors import ProgramError
 from ..drawn_only import Surface, rgb
-from . import LAND_M, Place, furniture, pieces
+from . import LAND_M, Place, dried_flowers, furniture, pieces
 
 if TYPE_CHECKING:
     from ..dressing import Dressing
 
 WIDEST = 3.0
-COLOUR = "#5f7d78"
-"""The wall's, unless the film names another."""
+COLOUR = "#d6bd9f"
+"""The wall's, unless the film names another: pale plaster, on which sun and shadow are seen best."""
+LEAST_M, ROOM_M = 0.08, 0.03
+"""Beside what is smaller no vase stands, of which a picture would show the foot alone; so much room is left around it."""
 PIXELS = 256
 
 
@@ -30,6 +33,10 @@ def build(film: "Dressing", place: Place) -> None:
     furniture.put(film, place, "wall", [pieces.block(wide, 0.05, 0.4 * wide, (0, 0.025, 0), 0.002)], spot, paint)
     strip = [pieces.block(wide, 0.03 * large, 0.09 * large, (0, -0.015 * large, 0))]
     furniture.put(film, place, "back board", strip, spot, "wood_walnut")
+    side = max(place.standing, place.radius) + dried_flowers.WIDE + ROOM_M
+    if large >= LEAST_M and not place.bare:
+        back = np.hypot(side, before := max(depth - dried_flowers.WIDE - ROOM_M, 0.0))
+        dried_flowers.stand(film, place, place.spot(float(back), 90 + np.degrees(np.arctan2(before, side))))
     film.gobo("window", size=1.25 * large, seed=int(place.random.integers(1 << 16)))
 
 

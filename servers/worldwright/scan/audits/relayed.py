@@ -59,7 +59,7 @@ def _carried(trajectory: Trajectory, own: set[str]) -> set[str]:
     names, parent = trajectory.names, trajectory.mechanics.parent
     found = {name for name in names if name in own}
     for number, name in enumerate(names if parent is not None else ()):
-        above = int(parent[number])  # type: ignore[index]
+        above = int(parent[number])
         if above >= 0 and names[above] in found:
             found.add(name)
     return found
