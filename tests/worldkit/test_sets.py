@@ -191,3 +191,31 @@ def test_the_ground_that_a_plan_states_stays_and_no_grass_grows_on_snow(floor, g
     assert any("grass" in thing["name"] for thing in facts["things"]) is grass
     film.ground("asphalt")
     assert film.description()[0]["ground"] == "asphalt"
+
+
+@pytest.mark.parametrize("name", ["living_room", "workshop", "kitchen_counter", "laboratory", "still_life"])
+def test_sun_falls_through_the_panes_of_a_room_until_it_is_taken_away(name: str) -> None:
+    assert described(name, 0.3)[0]["gobo"]["kind"] == "window"
+    assert described(name, 0.3, hour="golden_hour")[0]["gobo"]["kind"] == "window"
+    film = Film(recorded(0.3))
+    film.set(name)
+    film.gobo("none")
+    assert "gobo" not in film.description()[0]
+
+
+@pytest.mark.parametrize("hour", ["overcast", "night"])
+def test_without_sun_no_panes_are_seen_on_the_floor(hour: str) -> None:
+    assert "gobo" not in described("living_room", 0.3, hour=hour)[0]
+
+
+def test_dried_flowers_stand_beside_what_happens_in_a_still_life_unless_it_is_bare_or_too_small() -> None:
+    facts, arrays, _ = described("still_life", 0.4, facing_deg=-90.0)
+    names = {thing["name"]: thing for thing in facts["things"]}
+    assert {"vase", "dry stalks", "dry berries"} <= names.keys()
+    wall = arrays[names["back board"]["vertices"]][:, 1].max()
+    for name in ("vase", "dry stalks", "dry berries"):
+        points = arrays[names[name]["vertices"]]
+        assert points[:, 0].max() < -0.44 and points[:, 1].max() < wall, "beside the way of the ball, before the wall"
+        assert points[:, 2].min() >= 0.0 and points[:, 2].max() < 0.7
+    for facts in (described("still_life", 0.4, bare=True)[0], described("still_life", 0.05)[0]):
+        assert not {thing["name"] for thing in facts["things"]} & {"vase", "dry stalks"}

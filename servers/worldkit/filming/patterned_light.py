@@ -35,6 +35,8 @@ class PatternedLight(Weather):
     ) -> None:
         """Hold a pattern before the key light, whose shadow falls on everything: `window`, `blinds`, `leaves`, `branches`, `bars`.
 
+        With `none` it is taken away, as from a set in whose window the sun stands.
+
         The pattern is drawn only and never seen itself. Its middle, a pane's, lies on the light's way to `at` (m), and `size` is
         about a pane's width, m: without them the action fills it. It is turned by `turn_deg`, and `softness_deg` is the light's
         from now on, as hard light shows it best. A light from the side, 25 to 45 degrees high, throws it far over a wall.
@@ -42,6 +44,9 @@ class PatternedLight(Weather):
         Raises:
             ProgramError: there is no such pattern, or a number is none that it may have.
         """
+        if kind == "none":
+            self._gobo = None
+            return
         if kind not in GOBOS:
             raise ProgramError(f"there is no gobo {kind!r}", "film.py", f"use one of: {', '.join(GOBOS)}")
         low, high = self._action()

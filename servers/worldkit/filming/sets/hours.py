@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 Place = Any
 """Where the action is; its module imports this one."""
 HOURS = ("noon", "golden_hour", "overcast", "misty_morning", "dusk", "night")
+SUNNY = ("", "noon", "golden_hour")
+"""Hours at which the sun shines into a room; its own is one."""
 LIT = ("dusk", "night")
 """Hours at which lamps burn."""
 SEEN_FROM: dict[str, tuple[str, float, float]] = {
@@ -59,6 +61,12 @@ def indoors(film: "Dressing", place: Place, high: float) -> None:
     if place.dark:
         film.lamp("lamp overhead", place.spot(0.45 * high, 65, high), strength=OVERHEAD * high**2, colour=WARM)
         film.grade(exposure_stops=0.25, contrast=1.08, vignette=0.32, glow=0.1)
+
+
+def through_window(film: "Dressing", place: Place) -> None:
+    """Let sun fall through the panes of a window on what happens, unless the plan states its own light or the hour has none."""
+    if place.hour in SUNNY and not film.recorded.light:
+        film.gobo("window")
 
 
 def burning(

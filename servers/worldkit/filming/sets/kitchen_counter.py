@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from ..drawn_only import Surface
-from . import Place, furniture, pieces
+from . import Place, furniture, hours, pieces
 
 if TYPE_CHECKING:
     from ..dressing import Dressing
@@ -14,9 +14,10 @@ WIDEST = 0.9
 def build(film: "Dressing", place: Place) -> None:
     """Draw a kitchen: the ground is the counter's top; tiles behind it, jars, a board with a knife, a pan on the wall."""
     film.light(
-        azimuth_deg=place.facing_deg - 60, elevation_deg=32, colour="#ffeccf", strength=1.05, softness_deg=2, fill=0.38
+        azimuth_deg=place.facing_deg - 60, elevation_deg=28, colour="#ffe6c6", strength=1.25, softness_deg=2, fill=0.36
     )
     film.grade(contrast=1.04, temperature=0.04, vignette=0.16)
+    hours.through_window(film, place)
     film.ground("wood_oak")
     back = place.radius + 0.32
     furniture.put(

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..drawn_only import Surface
-from . import Place, furniture, pieces
+from . import Place, furniture, hours, pieces
 
 if TYPE_CHECKING:
     from ..dressing import Dressing
@@ -16,9 +16,10 @@ WIDEST = 1.2
 def build(film: "Dressing", place: Place) -> None:
     """Draw a laboratory bench: the ground is its top, pale and clean; glassware, a stand, a rack of tubes, cupboards behind."""
     film.light(
-        azimuth_deg=place.facing_deg - 58, elevation_deg=33, colour="#fff4e4", strength=1.05, softness_deg=2, fill=0.38
+        azimuth_deg=place.facing_deg - 58, elevation_deg=29, colour="#fff4e4", strength=1.25, softness_deg=2, fill=0.36
     )
     film.grade(contrast=1.04, saturation=0.96, temperature=-0.04, vignette=0.14)
+    hours.through_window(film, place)
     film.ground("plastic_white")
     back = place.radius + 0.45
     spot = place.spot(back, 180)

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from . import Place, furniture
+from . import Place, furniture, hours
 
 if TYPE_CHECKING:
     from ..dressing import Dressing
@@ -14,13 +14,14 @@ def build(film: "Dressing", place: Place) -> None:
     """Draw a living room: a sofa, a rug, books, a lamp that is lit, pictures, a plant, daylight from a window."""
     film.light(
         azimuth_deg=place.facing_deg - 75,
-        elevation_deg=34,
-        colour="#fff0dc",
-        strength=1.05,
+        elevation_deg=29,
+        colour="#ffe6c6",
+        strength=1.25,
         softness_deg=2.5,
-        fill=0.44,
+        fill=0.36,
     )
     film.grade(contrast=1.04, temperature=0.05, vignette=0.18)
+    hours.through_window(film, place)
     film.ground("wood_planks")
     away = max(2.4, place.radius + 1.9)
     furniture.walls(film, place, away, wall="#d8cfc0")

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import Place, furniture, pieces
+from . import Place, furniture, hours, pieces
 
 if TYPE_CHECKING:
     from ..dressing import Dressing
@@ -16,13 +16,14 @@ def build(film: "Dressing", place: Place) -> None:
     """Draw a workshop: concrete floor, a bench with a vice, tools on a board, crates, timber, a lamp over the bench."""
     film.light(
         azimuth_deg=place.facing_deg - 70,
-        elevation_deg=38,
-        colour="#fff1dc",
-        strength=1.05,
+        elevation_deg=30,
+        colour="#ffe6c6",
+        strength=1.25,
         softness_deg=2.5,
-        fill=0.44,
+        fill=0.36,
     )
     film.grade(contrast=1.08, saturation=0.95, temperature=0.05, vignette=0.24)
+    hours.through_window(film, place)
     film.ground("concrete")
     away = max(2.6, place.radius + 1.8)
     furniture.walls(film, place, away, high=3.4, wall="brick")

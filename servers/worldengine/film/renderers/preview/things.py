@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worldkit.materials.look import Look
+from worldkit.turning import matrices
 
 from ....recording.seen import UNSET_RGBA, geom_rgba, shown_rgba, skinned
 from ... import round_things, swaying
@@ -42,6 +43,17 @@ class Batch:
     clear: bool
     rows: list[int] = field(default_factory=list)
     first: int = 0
+
+
+def _upright(model: mujoco.MjModel, geom: int) -> float:
+    """The paint mode in which courses of bricks lie level in the frame that a thing was made in; that of a mesh is not its geom's."""
+    import mujoco
+
+    mesh = int(model.geom_dataid[geom])
+    if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_MESH or mesh < 0:
+        return SIDE_MODE
+    up = np.abs(matrices(model.mesh_quat[mesh])[2])
+    return (3.0, 4.0, SIDE_MODE)[int(up.argmax())]
 
 
 def _longest(size: np.ndarray) -> float:
@@ -204,7 +216,8 @@ class Things:
         entry = finish.look
         seed = 0.0 if endless else SHIFTS * (geom * GOLDEN % 1.0)
         if finish.texture < 0:
-            return (1.0 / entry.tile_m, entry.relief_m, _longest(extents) if entry.grain else SIDE_MODE, seed)
+            mode = _longest(extents) if entry.grain else _upright(self.model, geom)
+            return (1.0 / entry.tile_m, entry.relief_m, mode, seed)
         if entry.around:
             return (1.0, 0.0, SIDE_MODE, 0.0)
         mesh = int(self.model.geom_dataid[geom])
