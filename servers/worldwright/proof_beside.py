@@ -17,6 +17,8 @@ def main(folder: str) -> None:
     The worlds a little otherwise, which waited for the processor, begin then, if the run has come to its pictures.
     """
     run = Run(folder)
+    with suppress(OSError):
+        os.nice(proof_ahead.BEHIND)
     with suppress(WorldwrightError):
         if proof_ahead.finish(run) and all(one(State(run), name).holds for name in audited.BEFORE_ROBUST):
             audited.robust_beside(run)

@@ -87,6 +87,17 @@ def test_a_hand_on_no_body_is_refused():
         film.hand("ketle", pose="fist")
 
 
+def test_a_grip_in_the_air_is_refused_with_where_the_body_is_in_its_own_frame():
+    recorded = Recorded.rehearsal({"stick": WAY}, duration=3.0, radius=0.1 * np.sqrt(3))
+    recorded.sized = True  # as of a world
+    film = Film(recorded)
+    film.hand("stick", at=(0.09, 0, 0), grip=0.03)
+    film.hand("stick", at=(0.3, 0, 0), pose="open", name="a hand that points at it")
+    with pytest.raises(ProgramError, match=r"hold the air, 0\.10 m beside 'stick'") as refused:
+        film.hand("stick", at=(-0.2, 0, 0), grip=0.03, name="another")
+    assert "from [-0.1, -0.1, -0.1] to [0.1, 0.1, 0.1]" in refused.value.next_move
+
+
 @pytest.mark.parametrize("arm", [(-0.6, -0.7, 0.5), (0.6, 0.3, 0.4), (0.0, -0.8, 0.3), (1.0, 0.0, 0.0)])
 @pytest.mark.parametrize("axis", [(0, -0.342, 0.94), (0.5, 0.0, 0.8), (0, 0, 1)])
 def test_a_pen_is_held_by_a_wrist_that_is_nearly_straight(arm, axis):

@@ -23,6 +23,10 @@ CLOSES_S, COMES_S = 0.45, 1.1
 """How long fingers take to close, and before that the arm to come, in the time of the recording."""
 BACK_M, REACH_M = 0.07, 1.0
 """How far an open hand draws back from what it held, and how far the arm then goes, with a hand of an adult."""
+ADULT_M, ARM_M = 0.19, 0.62
+"""Of an adult: from wrist to fingertip, and as much of an arm as leaves the picture of what a hand holds; a sleeve that ends in it is seen to."""
+AIR_M = 0.02
+"""A grip lies at most so far beside what it holds."""
 LEVEL = 0.3
 """A rod whose way has a smaller share of up or down lies."""
 FLEXION, DEVIATION = (-60.0, 65.0), (-28.0, 20.0)
@@ -64,7 +68,7 @@ class DrawnHands(Limbs):
         opens and withdraws. `sleeve` and `skin` are colours; an empty sleeve leaves the arm bare. `length` is from wrist to fingertip, m.
 
         Raises:
-            ProgramError: there is no such body or pose, the hand cannot hold what is so thick, or a direction is none.
+            ProgramError: there is no such body or pose, the hand cannot hold what is so thick, or a direction is none, or nothing of the body is `at` its grip.
         """
         self._carrier(body)
         wanted = {"grip": grip, "pinch": pinch, "hold_rod": rod}
@@ -74,13 +78,15 @@ class DrawnHands(Limbs):
             raise ProgramError("a hand has one pose: grip=, pinch=, rod= or pose=", "film.py", "give one of them")
         thumb, out, towards = _directions(axis, palm or (0, 0, -1), arm)
         handed = -1.0 if side == "left" else 1.0
+        if held and self.recorded.sized:
+            self._within_reach(body, at, wanted[held[0]])
         try:
             closed = hand(
                 kind,
                 wanted.get(kind, 0.0),
                 side=side,
                 length=length,
-                forearm=0.42 * length / 0.19,
+                forearm=ARM_M * length / ADULT_M,
                 skin=skin,
                 sleeve=sleeve,
             )
@@ -142,6 +148,22 @@ class DrawnHands(Limbs):
                 self._grown.append(
                     (self._things.pop(), self._going(body, way, None if always else number, len(poses)), line())
                 )
+
+    def _within_reach(self, body: str, at: Vec3, size: float) -> None:
+        """Refuse a grip in the air, as where `at` was told in another frame than the body's.
+
+        Raises:
+            ProgramError: nothing of the body is there.
+        """
+        middle, half = self.recorded.box(body)
+        away = float(np.linalg.norm(np.maximum(np.abs(np.asarray(at, dtype=float) - middle) - half, 0.0)))
+        if away > size / 2 + AIR_M:
+            low, high = (np.round(corner, 3).tolist() for corner in (middle - half, middle + half))
+            raise ProgramError(
+                f"the hand would hold the air, {away:.2f} m beside {body!r}",
+                "film.py",
+                f"`at` is a point of the body's own frame, in which it reaches from {low} to {high}",
+            )
 
     def _going(
         self, body: str, way: "_Way", number: int | None, count: int

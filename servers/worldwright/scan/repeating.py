@@ -1,5 +1,6 @@
 """What `scan` does for other servers, which reach it through `scan.tools`; none of it is a tool."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,32 @@ def begin_robust(run: Run) -> str:
     from .audits import unasked_audit
 
     return unasked_audit.begin(run, run.evidence_key(environment.current().sha256()))
+
+
+def without_causes(run: Run, pass_s: float, within_s: float, progress: Progress = silent) -> list[str]:
+    """For the walk of another server: what blocks by the repetitions without each cause alone, one line each.
+
+    They are made only if all of them, as long as the physics pass (`pass_s`, s), take about `within_s` s at most, and are found
+    again by the whole audit.
+    """
+    from ..model.evidence import drawn_stills, environment
+    from ..model.plan.plan_text import read_plan
+    from ..model.recording.trajectory_files import read_trajectory
+    from ..model.storage import own
+    from .anomalies.sign import Context
+    from .audits import acting
+    from .audits.causes import Causes
+    from .audits.trials import AT_ONCE, Trials
+
+    key = run.evidence_key(environment.current().sha256())
+    plan, trajectory = read_plan(run.plan).plan, read_trajectory(run.evidence(key) / "physics" / "trajectory")
+    stills = drawn_stills.read(run, run.evidence(key), trajectory.sha256)
+    trajectory = replace(trajectory, stills=stills) if stills else trajectory
+    trials = Trials(run, memory=own(run.folder, run.evidence(key)) / "trials.json")
+    causal = Causes(trajectory, plan, acting.report(trajectory, Context.of(plan)).acting, trials)
+    if not 0 < causal.ask_without() * pass_s <= AT_ONCE * within_s:
+        return []
+    return [str(a) for a in causal.wrong_without()] if trials.collect(2 * within_s, progress) else []
 
 
 def trial_parts(run: Run, recording: Path, said: dict[str, Any], *, whole: bool) -> "list[Part]":

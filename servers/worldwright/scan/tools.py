@@ -20,13 +20,13 @@ from ..model.picture import Illustrated, Picture
 from ..model.progress import Progress, silent
 from .comparing import Comparison, compare_reports
 from .query.answered import Answer
-from .repeating import begin_robust, repeat_part, trial_parts, unbalanced, unlike_part
+from .repeating import begin_robust, repeat_part, trial_parts, unbalanced, unlike_part, without_causes
 
 if TYPE_CHECKING:
     from ..model.plan.committed import Plan
     from ..model.recording.trajectory import Trajectory
 
-__all__ = ["TOOLS", "begin_robust", "repeat_part", "trial_parts", "unbalanced", "unlike_part"]
+__all__ = ["TOOLS", "begin_robust", "repeat_part", "trial_parts", "unbalanced", "unlike_part", "without_causes"]
 
 RunName = Annotated[
     str, Field(description="A run folder or its name; or a recording: a trajectory folder or .npz file.")

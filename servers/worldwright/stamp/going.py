@@ -17,7 +17,7 @@ from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
-from . import at_work, audited, gates, next_repair, picture_claims, proof_ahead, rough_film, scope, traced_ahead
+from . import at_work, audited, begun_beside, gates, next_repair, picture_claims, rough_film, scope, uncaused
 from .gone import Gone, Wrong
 from .halts import RunningError, TurnError, WrongError
 from .smallest_seen import smallest_seen
@@ -103,14 +103,8 @@ class Going:
                 self.under_way += [str(still)] if str(still) not in self.under_way else []
             else:
                 self.say(name, "done", self.held[name])
-        if "expect" in self.held and not self.wrong and (ahead := proof_ahead.begin(self.run)):
-            self.say("proof", "done", ahead)
-            self.proof = ahead
-        if {*audited.BEFORE_ROBUST} <= self.held.keys():
-            self.robust = audited.robust_beside(self.run, proving=bool(self.proof))
-            self.traced = traced_ahead.begin(self.run) if self.attended and not self.wrong else ""
-            for beside, said in filter(all, (("robust", self.robust), ("traced", self.traced))):
-                self.say(beside, "done", said)
+        begun = begun_beside.begin(self.run, self.held, self.say, sound=not self.wrong, attended=self.attended)
+        self.proof, self.robust, self.traced = begun
         return self.told(turn)
 
     def told(self, turn: str) -> Gone:
@@ -304,19 +298,19 @@ class Going:
         return "\n".join([*said, *remarks[:MOST_REMARKS]])
 
     def expect(self) -> str:
-        """The world does what the plan claims."""
+        """The world does what the plan claims, and nothing of it where its cause is taken away."""
         from ..scan.tools import expect
 
         if not self.step("expect").done:
             expect(self.name)
         report = picture_claims.measured(self.run, lambda: self.passed("stills"))
-        found = []
+        found: list[str] = []
         for objective in report.objectives if report else ():
             if objective.status in ("refuted", "unproved"):
                 told = [f"{e.name}: {e.message}" for e in objective.expectations if e.status != "holds"]
                 told += [objective.reason] if objective.status == "unproved" and objective.reason else []
                 found.append("\n".join([f"objective {objective.index} {objective.status}: {objective.claim}", *told]))
-        if found:
+        if found := found or uncaused.wrong(self.run, self.progress):
             raise WrongError(*((said, self.patch()) for said in found))
         return self.step("expect").detail
 

@@ -21,7 +21,7 @@ from worldwright.model.plan.plan_text import read_plan
 from worldwright.scan import tools as scan
 from worldwright.stage import tools as stage
 from worldwright.stage.job import Job
-from worldwright.stamp import at_work, going, smallest_seen
+from worldwright.stamp import at_work, going, smallest_seen, uncaused
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
@@ -201,6 +201,22 @@ def test_what_the_recording_refutes_is_told_at_once_together_and_nothing_is_film
     assert "falls" in gone.wrong[1].what and "comes_to_rest" in gone.wrong[1].what
     assert not {("stage", "stills"), ("stage", "video")} & set(journal(fresh))
     assert gone.wrong == to_the_end(fresh).wrong
+
+
+@pytest.mark.slow
+def test_an_effect_that_comes_without_its_cause_is_told_with_the_claims_and_nothing_is_filmed(fresh, monkeypatch):
+    plan_of(fresh, ("The ball falls to the floor.", "The ball falls to the floor.\n  cause: ground"))
+    stamp.go(str(fresh))
+    stamp.approve(str(fresh), by="tester")
+    gone = to_the_end(fresh)
+    assert [wrong.step for wrong in gone.wrong] == ["expect"], gone.text()
+    assert "WS321" in gone.wrong[0].what and "without ground, falls still holds" in gone.wrong[0].what
+    assert not {("stage", "stills"), ("stage", "video"), ("scan", "causes")} & set(journal(fresh))
+    made = {job.spec.variant for job in Job.all(Run(fresh)) if job.spec.variant}
+    assert len(made) == 1 and gone.wrong == to_the_end(fresh).wrong
+    assert {job.spec.variant for job in Job.all(Run(fresh)) if job.spec.variant} == made, "it is paid once"
+    monkeypatch.setattr(uncaused, "WITHIN_S", 0.0)
+    assert "expect" in stamp.go(str(fresh), until="expect").held, "a long physics waits for the whole audit"
 
 
 FAILING = """

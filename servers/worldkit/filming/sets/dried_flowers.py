@@ -33,11 +33,11 @@ def stand(film: "Dressing", place: Place, at: tuple[float, float, float]) -> Non
         t = np.linspace(0.0, 1.0, 9)[:, None]
         aside = np.array([np.cos(yaw), np.sin(yaw), 0.0])
         line = (0.012 + out * t**1.6) * aside + np.array([0, 0, 1]) * (MOUTH - 0.08 + (tall + 0.08) * t)
-        stalks.append(limb(line, list(np.linspace(0.0016, 0.0006, len(line))), sides=5))
+        stalks.append(limb(line, list(np.linspace(0.0028, 0.0014, len(line))), sides=5))
         for share in np.linspace(0.42, 1.0, BERRIES):
-            twig, size = random.uniform(-1, 1, 3) * (0.018, 0.018, 0.008), random.uniform(0.0045, 0.0075)
+            twig, size = random.uniform(-1, 1, 3) * (0.018, 0.018, 0.008), random.uniform(0.0055, 0.0085)
             foot = line[int(share * 8)] + (share * 8 % 1) * (line[min(int(share * 8) + 1, 8)] - line[int(share * 8)])
-            stalks.append(limb(np.array([foot, foot + twig]), [0.0005, 0.0004], sides=3))
+            stalks.append(limb(np.array([foot, foot + twig]), [0.0010, 0.0008], sides=3))
             berries.append(_moved(round_one, foot + twig, size))
     put(film, place, "vase", [turned(list(PROFILE))], at, Surface(colour="#2f6f6c", roughness=0.18))
     put(film, place, "dry stalks", stalks, at, Surface(colour="#7a5a34", roughness=0.8))

@@ -38,7 +38,8 @@ class Breaks(Frozen):
     groove: float | None = Field(None, gt=0)
     """Metres, of such a box: how deep the grooves are."""
     held: dict[str, tuple[Vec3, ...]] = {}
-    """What holds it by its outer faces: an object that is there before, or `world`; directions that those faces look into."""
+    """What holds it by its outer faces: an object that is there before, or `world`; directions that those faces look into as it stands
+    (after `deg_x` and `deg_y`, before `yaw_deg`)."""
     inside: str | None = None
     """Look of the faces that it breaks along; None: its own."""
 

@@ -58,6 +58,17 @@ class Causes:
         for words, _ in self.switches.groups():
             self.trials.ask(*words)
 
+    def ask_without(self) -> int:
+        """Ask only for the repetitions without each cause; how many these are."""
+        labels = {self.trials.ask(*self.switches.without(cause)) for o in self.plan.objectives for cause in o.cause}
+        return len(labels)
+
+    def wrong_without(self) -> list[Anomaly]:
+        """What blocks already by those, of whatever the repetitions with less of a cause will show."""
+        told = [(i, c) for i, o in enumerate(self.plan.objectives) for c in o.cause]
+        seen = [(i, c) for i, c in told if label_of(self.switches.without(c)) not in self.trials.limited]
+        return self._anomalies(tuple(self.cause(i, c) for i, c in seen))
+
     def ask(self, cause: str) -> None:
         """Ask for the repetitions that one cause needs."""
         weaker = (self.switches.weaker(cause, factor) for factor in WEAKER)

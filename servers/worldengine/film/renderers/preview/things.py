@@ -26,6 +26,8 @@ VISIBLE_GROUPS = (0, 1, 2)
 """Geom groups that are drawn, as in MuJoCo's own viewers; collision hulls lie in group 3."""
 ENDLESS_M = 4096.0
 SIDE_MODE, EXACT_UV, FLAT_UV = 2.0, 6.0, 7.0
+PANE, SLIM = 11.0, 0.25
+"""From here on, the kind of a clear mesh that is a pane, and the axis across it; so thin, by its second side, is a pane."""
 GOLDEN, SHIFTS = 0.6180339887, 512.0
 """Shares of the golden section never meet again; so many tiles on, the paint of two things has nothing in common."""
 PIECES = (0.0, 0.7, -0.4, 0.3, -1.0, 1.0, -0.7)
@@ -205,7 +207,11 @@ class Things:
             kinds.mjGEOM_BOX: 2.0,
             kinds.mjGEOM_CYLINDER: 3.0,
         }
-        out[36:40] = entry.vary, entry.clear, float(entry.mark), 4.0 if endless else shapes.get(kind, 0.0)
+        shape = 4.0 if endless else shapes.get(kind, 0.0)
+        thin, second, _ = np.sort(extents)
+        if entry.clear > 0 and kind in (kinds.mjGEOM_MESH, kinds.mjGEOM_SDF) and thin < SLIM * second:
+            shape = PANE + int(extents.argmin())
+        out[36:40] = entry.vary, entry.clear, float(entry.mark), shape
 
     def _weave(
         self, geom: int, finish: Finish, extents: np.ndarray, endless: bool

@@ -1,4 +1,5 @@
 const float LIQUID = 9.0, WALL = 10.0;
+const float PANE = 11.0, SLIM = 0.25;  // a mesh that is a pane, x across; so thin, by its second side, is a pane
 const float TOLD = 8.0;  // what is clear and tells at each corner how thick it is there
 // What is seen through the surface of a body of liquid: along the bent ray to what the picture has behind it, fainter by the way.
 // At an upright wall of it, as of a glass, light comes out again at the far side, bent there, too: a lens.

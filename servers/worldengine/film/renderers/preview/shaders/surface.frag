@@ -172,6 +172,15 @@ float occlusion(vec2 at, float distance_m) {
 #if CLEAR
 #include "liquid.glsl"
 
+// The axis across a pane, in its own frame; -1 of what is none. A mesh tells it, a box is measured.
+int thin_way(float kind) {
+    if (kind > PANE - 0.5 && kind < PANE + 2.5) return int(kind - PANE + 0.5);
+    vec3 h = abs(size.xyz);
+    float least = min(h.x, min(h.y, h.z)), second = max(min(h.x, h.y), min(max(h.x, h.y), h.z));
+    if (abs(kind - 2.0) > 0.5 || least > SLIM * second) return -1;
+    return least == h.x ? 0 : least == h.y ? 1 : 2;
+}
+
 // How far a ray goes on inside of a thing, m: from p along d, both in the thing's own frame; dip is how straight it goes in.
 float way_within(vec3 p, vec3 d, float kind, float radius, float dip) {
     if (abs(kind - TOLD) < 0.5) return within;
@@ -447,6 +456,15 @@ void main() {
         // A wall seen along itself turns light far aside: glass has dark outlines.
         if (BALL == 0) tint *= 1.0 - 0.6 * pow(1.0 - nv, 3.0);
         c = textureLod(behind, q, 0.0).rgb * tint * (1.0 - f) + mirror * f + shine;
+        int across = thin_way(more.w);
+        if (across >= 0 && abs(nl[across]) < 0.5) {
+            // The cut edge of a pane shines by the light that runs along in it, and is not seen through.
+            c = mix(c, 1.3 * light + mirror * f + shine, 0.75);
+        } else if (across >= 0) {
+            // Both faces of a pane mirror. What the picture shows before it they do not: so few steps of a ray break it to pieces.
+            float both = 2.0 * f / (1.0 + f);
+            c = textureLod(behind, q, 0.0).rgb * tint * (1.0 - both) + mirror * both + shine;
+        }
         alpha = more.y > 0.0 ? 1.0 : base.a;
         if (more.y <= 0.0) c = light + shine + env + albedo * misc.y;
         if (abs(more.w - WALL) < 0.5) {
