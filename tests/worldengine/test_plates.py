@@ -35,6 +35,18 @@ def test_a_change_of_light_is_found_where_it_is():
     assert plates.differing(before, before * 1.1, PLAIN).all()
 
 
+def test_what_chance_makes_brighter_here_and_darker_there_is_no_change_and_as_much_of_one_sign_is():
+    """So is the bounce light near whatever moves: each path that met it ends elsewhere now."""
+    before, random = np.full((90, 160, 3), 0.3, np.float32), np.random.default_rng(1)
+    chance = random.normal(scale=0.03, size=(90, 160, 1)).astype(np.float32)
+    assert plates.differing(before, before + chance, PLAIN).mean() < 0.05
+    assert plates.differing(before, before + np.abs(chance), PLAIN).mean() > 0.9
+    shadow = before + chance
+    shadow[40:44, 60:100] *= 0.8
+    found = plates.differing(before, shadow, PLAIN)
+    assert found[40:44, 60:100].mean() > 0.9 and found.mean() < 0.12
+
+
 def test_what_the_film_grades_plainer_is_found_too():
     before = np.full((40, 80, 3), 1e-4, np.float32)
     now = before * 1.5

@@ -29,10 +29,11 @@ if TYPE_CHECKING:
 
 SIDE, SAMPLES = 4, 4
 """Of a coarse look one pixel stands for so many each way, and takes so many samples."""
-BLUR, LEAST, GROWN = 1.5, 1.2 / 255.0, 2
-"""Differences are spread over so many coarse pixels; count from this share of white on; and reach so many further."""
-LEAST_ALONE = 10.0 / 255.0
-"""A difference of one coarse pixel alone counts from this share of white on; chance makes many that are smaller."""
+SEEN = ((2.5, 1.5 / 255.0), (1.0, 7.0 / 255.0), (0.0, 30.0 / 255.0))
+"""Spread over so many coarse pixels a difference counts from this share of white on. Whatever a path met that has moved is brighter
+here and darker there by chance, wherever a mover is near: that is gone where a difference is spread with its sign."""
+GROWN = 2
+"""A difference reaches so many coarse pixels further."""
 SMALL = 10
 """The shadow or image of a thing of more coarse pixels is found by its light."""
 UNSEEN = 0.01
@@ -184,8 +185,11 @@ def differing(before: np.ndarray, now: np.ndarray, look: Look) -> np.ndarray:
         bright = np.maximum(light, 0.0) * look.exposure
         return np.sqrt(bright / (1.0 + bright))
 
-    apart = np.float32(look.contrast) * np.abs(shown(now) - shown(before)).max(axis=-1)
-    return ((cv2.GaussianBlur(apart, (0, 0), BLUR) > LEAST) | (apart > LEAST_ALONE)).astype(np.uint8)
+    apart = np.float32(look.contrast) * (shown(now) - shown(before))
+    found = np.zeros(apart.shape[:2], bool)
+    for spread, least in SEEN:
+        found |= np.abs(cv2.GaussianBlur(apart, (0, 0), spread) if spread else apart).max(axis=-1) > least
+    return found.astype(np.uint8)
 
 
 def echoes(thing: tuple[np.ndarray, np.ndarray], look: Look) -> Iterator[tuple[np.ndarray, ...]]:
