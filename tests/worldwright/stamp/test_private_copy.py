@@ -1,7 +1,6 @@
 """What `verify` judges is one copy of an accepted folder: whoever writes there meanwhile changes nothing of the answer."""
 
 import os
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -93,7 +92,6 @@ def test_what_a_killed_verification_left_is_removed_and_what_another_holds_is_no
     left.mkdir(parents=True, exist_ok=True)
     with private_copy.of(Run(accepted)) as one, private_copy.of(Run(accepted)) as other:
         assert one.folder.exists() and other.folder.exists() and not left.exists()
-    shutil.rmtree(root)
 
 
 def test_what_is_signed_was_never_in_the_run(reviewed: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch) -> None:
