@@ -15,7 +15,7 @@ from worldengine.inputs.replayed_inputs import Asked, Replayed
 from worldengine.recording import describing, stored
 from worldengine.recording.record import Recorder
 from worldengine.variants.holding import Hold
-from worldkit import film_files
+from worldkit import film_files, forms, materials
 from worldkit.filming import Film
 from worldkit.world import start
 
@@ -43,6 +43,18 @@ def ball(spec: mujoco.MjSpec, name: str, pos: Any, radius: float = 0.1, mass: fl
     body.add_freejoint(name=name)
     body.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(radius, 0, 0), mass=mass, **properties)
     return body
+
+
+def slab(spec: mujoco.MjSpec, body: Any, shape: str, size: Any, look: str, radius: float) -> None:
+    """The shape of a body: a box of full extents, m, with a look, or a mesh of the same with rounded edges."""
+    kinds = mujoco.mjtGeom
+    if shape == "mesh":
+        form = forms.rounded_box(size=size, radius=radius)
+        spec.add_mesh(name="slab", uservert=form.vertices.ravel(), userface=form.faces.ravel())
+        geom = body.add_geom(type=kinds.mjGEOM_MESH, meshname="slab")
+    else:
+        geom = body.add_geom(type=kinds.mjGEOM_BOX, size=np.array(size) / 2)
+    geom.material = materials.add(spec, look)
 
 
 def heap(bodies: int = 12, **options: Any) -> mujoco.MjSpec:

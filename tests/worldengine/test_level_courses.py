@@ -4,9 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from small_worlds import slab
 from worldengine.film.renderers.preview.things import Things
-from worldkit import forms, scene, turning
-from worldkit.materials import add
+from worldkit import scene, turning
 
 AXES = {2.0: 2, 3.0: 0, 4.0: 1}
 """By paint mode: the axis of the geom's own frame that is up in the picture of the paint."""
@@ -20,14 +20,7 @@ def test_up_in_the_paint_is_up_in_the_frame_that_the_wall_was_made_in(size, look
     quat = np.array([0.9, 0.1, 0.2, 0.37]) / np.linalg.norm([0.9, 0.1, 0.2, 0.37])
     turn = turning.matrices(quat)
     body = spec.worldbody.add_body(name="wall", pos=(0, 0, 2), quat=quat)
-    kinds = mujoco.mjtGeom
-    if shape == "mesh":
-        form = forms.rounded_box(size=size, radius=0.01)
-        spec.add_mesh(name="wall", uservert=form.vertices.ravel(), userface=form.faces.ravel())
-        geom = body.add_geom(type=kinds.mjGEOM_MESH, meshname="wall")
-    else:
-        geom = body.add_geom(type=kinds.mjGEOM_BOX, size=np.array(size) / 2)
-    geom.material = add(spec, look)
+    slab(spec, body, shape, size, look, radius=0.01)
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)

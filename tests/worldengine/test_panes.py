@@ -4,10 +4,10 @@ import mujoco
 import numpy as np
 import pytest
 
+from small_worlds import slab
 from worldengine.film.drawn_frames import Frames
 from worldengine.film.renderers.preview.things import PANE, Things
-from worldkit import forms, scene
-from worldkit.materials import add
+from worldkit import scene
 
 SIZE = (0.4, 0.4, 0.01)
 
@@ -16,14 +16,7 @@ def lying(shape: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """A pane that lies a hand's breadth over dark ground, seen from the side."""
     spec = scene.new("pane", time_step=0.002, setting="studio")
     body = spec.worldbody.add_body(name="pane", pos=(0, 0, 0.1))
-    kinds = mujoco.mjtGeom
-    if shape == "mesh":
-        form = forms.rounded_box(size=SIZE, radius=0.0005)
-        spec.add_mesh(name="pane", uservert=form.vertices.ravel(), userface=form.faces.ravel())
-        geom = body.add_geom(type=kinds.mjGEOM_MESH, meshname="pane")
-    else:
-        geom = body.add_geom(type=kinds.mjGEOM_BOX, size=np.array(SIZE) / 2)
-    geom.material = add(spec, "clear #7fd0a8 6mm")
+    slab(spec, body, shape, SIZE, "clear #7fd0a8 6mm", radius=0.0005)
     spec.worldbody.add_camera(name="eye", pos=(0, -0.9, 0.3), xyaxes=(1, 0, 0, 0, 0.2, 0.9), fovy=28)
     model = spec.compile()
     data = mujoco.MjData(model)
@@ -49,6 +42,7 @@ def test_the_cut_edge_of_a_pane_is_brighter_and_greener_than_its_face(shape: str
     edge, face = image[rows[-2], columns].mean(axis=0), image[rows[len(rows) // 2], columns].mean(axis=0)
     assert edge[1] > edge[0] + 15, "glass is green along its edge"
     assert (edge[1] - edge[0]) > 1.3 * (face[1] - face[0])
+    assert edge.mean() > face.mean() + 20, "it shines, and is not looked through as through deep glass"
 
 
 @pytest.mark.parametrize(("shape", "kind"), [("box", 2.0), ("mesh", PANE)])

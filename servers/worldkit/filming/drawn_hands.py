@@ -68,7 +68,8 @@ class DrawnHands(Limbs):
         opens and withdraws. `sleeve` and `skin` are colours; an empty sleeve leaves the arm bare. `length` is from wrist to fingertip, m.
 
         Raises:
-            ProgramError: there is no such body or pose, the hand cannot hold what is so thick, or a direction is none, or nothing of the body is `at` its grip.
+            ProgramError: there is no such body or pose, the hand cannot hold what is so thick, a direction is none, or nothing of the
+                body is `at` its grip.
         """
         self._carrier(body)
         wanted = {"grip": grip, "pinch": pinch, "hold_rod": rod}

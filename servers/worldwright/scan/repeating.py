@@ -19,11 +19,11 @@ def begin_robust(run: Run) -> str:
     return unasked_audit.begin(run, run.evidence_key(environment.current().sha256()))
 
 
-def without_causes(run: Run, pass_s: float, within_s: float, progress: Progress = silent) -> list[str]:
+def without_causes(run: Run, pass_s: float, within_s: float, left_s: float, progress: Progress = silent) -> list[str]:
     """For the walk of another server: what blocks by the repetitions without each cause alone, one line each.
 
     They are made only if all of them, as long as the physics pass (`pass_s`, s), take about `within_s` s at most, and are found
-    again by the whole audit.
+    again by the whole audit. Nothing is told of those that are not there after `left_s` s: they go on, and another call finds them.
     """
     from ..model.evidence import drawn_stills, environment
     from ..model.plan.plan_text import read_plan
@@ -42,7 +42,7 @@ def without_causes(run: Run, pass_s: float, within_s: float, progress: Progress 
     causal = Causes(trajectory, plan, acting.report(trajectory, Context.of(plan)).acting, trials)
     if not 0 < causal.ask_without() * pass_s <= AT_ONCE * within_s:
         return []
-    return [str(a) for a in causal.wrong_without()] if trials.collect(2 * within_s, progress) else []
+    return [str(a) for a in causal.wrong_without()] if trials.collect(min(2 * within_s, left_s), progress) else []
 
 
 def trial_parts(run: Run, recording: Path, said: dict[str, Any], *, whole: bool) -> "list[Part]":

@@ -310,7 +310,7 @@ class Going:
                 told = [f"{e.name}: {e.message}" for e in objective.expectations if e.status != "holds"]
                 told += [objective.reason] if objective.status == "unproved" and objective.reason else []
                 found.append("\n".join([f"objective {objective.index} {objective.status}: {objective.claim}", *told]))
-        if found := found or uncaused.wrong(self.run, self.progress):
+        if found := found or uncaused.wrong(self.run, self.deadline - time.monotonic(), self.progress):
             raise WrongError(*((said, self.patch()) for said in found))
         return self.step("expect").detail
 

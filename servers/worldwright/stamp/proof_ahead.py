@@ -2,8 +2,9 @@
 
 First the repetitions that its causes ask for, then, of a long physics, the proof run, and that part of the repetitions which
 acceptance simulates again. A process of its own makes them, a little less urgent than the film that is waited for meanwhile; by the
-time that acceptance waits for them nothing else is at work. What nothing waits for, the worlds a little otherwise, begins where it ends. It is about what was there when it began: once the program, the plan or
-what they use is changed, it ends its jobs and itself. Nothing is decided by it; acceptance asks all its questions when it is called.
+time that acceptance waits for them nothing else is at work. What nothing waits for, the worlds a little otherwise, begins where it ends.
+It is about what was there when it began: once the program, the plan or what they use is changed, it ends its jobs and itself. Nothing is
+decided by it; acceptance asks all its questions when it is called.
 """
 
 from contextlib import suppress
@@ -21,7 +22,7 @@ from .taken import take
 MODULE = "worldwright.proof_beside"
 """What the process runs."""
 BEHIND = 10
-"""So much nicer it is: on two cores a film stood still beside it, and acceptance, which comes after the film, lost nothing."""
+"""So much nicer it is: on two cores a film that a role waited for stood still beside it, and acceptance comes after the film."""
 LONG_S = 6.0
 """A physics pass that took less is proved while acceptance is waited for."""
 LOOK_S = 5.0

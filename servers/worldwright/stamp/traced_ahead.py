@@ -1,8 +1,8 @@
-"""The traced film of a world with glass or water, begun by itself once the author's film is drawn: the machine has nothing else to do then.
+"""The traced film of a world with glass or a clear liquid, begun by itself once the author's film is drawn and the machine is idle.
 
 Glass is what the preview draws worst. Of a world without any, so short a trace is no better than the preview, and shadows melt in it;
-there it is asked for. It is for show, and no evidence: nothing waits for it, and with the lowest priority it takes nothing from what something waits for.
-It is whole whenever its minutes end (`worldengine.film.refining`), ends by itself when the film or the world is changed, and
+there it is asked for. It is for show, and no evidence: nothing waits for it, and with the lowest priority it takes little from what
+something waits for. It is whole whenever its minutes end (`worldengine.film.refining`), ends by itself when the film or the world is changed, and
 `worldwright stage start RUN --pass final` goes on with its frames.
 """
 

@@ -13,8 +13,11 @@ WITHIN_S = 30.0
 """Where all of them would take longer, the claims are told without them."""
 
 
-def wrong(run: Run, progress: Progress) -> list[str]:
-    """The blocking findings, one line each; none where no objective names a cause, or the audit stands already."""
+def wrong(run: Run, left_s: float, progress: Progress) -> list[str]:
+    """The blocking findings, one line each, as far as they are known within `left_s` s.
+
+    None where no objective names a cause, or the audit stands already.
+    """
     state = State(run)
     physics = state.passes["physics"].value
     named = any(objective.cause for objective in (state.plan.objectives if state.plan else ()))
@@ -22,4 +25,4 @@ def wrong(run: Run, progress: Progress) -> list[str]:
         return []
     from ..scan.tools import without_causes
 
-    return without_causes(run, physics.wall_s, WITHIN_S, progress)
+    return without_causes(run, physics.wall_s, WITHIN_S, left_s, progress)

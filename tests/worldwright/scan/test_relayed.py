@@ -74,3 +74,8 @@ def test_a_motor_that_acts_all_the_same_or_is_the_cause_itself_is_no_relay(
         result.message
     )
     assert "not tried" not in result.message
+
+
+def test_all_that_control_sends_is_no_relay_of_itself(tmp_path: Path) -> None:
+    (result,) = told(tmp_path, presses_in_turn, "control").causes.causes
+    assert "not tried" not in result.message and "neither does" not in result.message, result.message

@@ -151,10 +151,11 @@ class Causes:
         return CauseResult(**facts, outcome="caused", message=f"{vanishes}; weakened, {what}")
 
     def _silent(self, cause: str, gone: str, planned: tuple[Response, ...]) -> tuple[Relayed, ...]:
-        """The drives that the repetition without the cause leaves silent."""
+        """The drives that the repetition without the cause leaves silent; none of a cause that is all of them."""
+        if self.singly or "control" in self._own(cause):
+            return ()
         until = max((r.event_s for r in planned if r.event_s is not None), default=float(self.trajectory.t[-1]))
-        found = relayed(self.trajectory, self.trials.made[gone], self.acting, self._own(cause), until)
-        return () if self.singly else tuple(found)
+        return tuple(relayed(self.trajectory, self.trials.made[gone], self.acting, self._own(cause), until))
 
     @staticmethod
     def _own(cause: str) -> set[str]:
